@@ -1,12 +1,12 @@
 """Computes flow_map.csv: impacts of elastic-plastic spheres by explicit elements, beside Hertz' impact.
 
-    python3 validation/data/flow_map.py FEM_RUN [--scenes NAME ...] [--speeds FROM TO] > flow_map.csv
+    python3 validation/data/flow_map.py FEM_RUN [--scenes NAME ...] [--ratios E*/Y ...] [--speeds FROM TO] > flow_map.csv
 
 Every impact runs on two meshes, with 12 and 24 elements across the contact radius. The restitution converges as 1 + 0.05/k in
 k elements, so the values are extrapolated by half of the difference between both meshes, and that half is the error bar. From 300
 times the speed of first yield on there is no such trend: the restitution of meshes from 12 to 48 elements scatters by 1.2 %. There
 the values are those of the finer mesh, with 48 elements on a wall, and the bars are the difference between both meshes, for the
-restitution at least that scatter. FEM_RUN is the program. An impact that ends early, because the surface
+restitution at least that scatter. Impacts with Swift's law, and those at E*/Y = 5000, have the mesh of the program and its error bars. FEM_RUN is the program. An impact that ends early, because the surface
 folds, is left out and reported.
 """
 
@@ -22,6 +22,7 @@ import tempfile
 
 MESHES, MESHES_OF_FAST_IMPACTS_ON_A_WALL, FAST, SCATTER = [12.0, 24.0], [24.0, 48.0], 300.0, 0.012
 MODULUS, DENSITY, DIAMETER = 210e9, 7800.0, 10e-3
+SOFTEST = 5000.0
 SPEEDS = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0]
 FINE_SPEEDS = [1.3, 1.7, 2.2, 4.5, 6.5, 17.0, 55.0, 170.0, 550.0]
 QUANTITIES = {
@@ -38,9 +39,9 @@ LOADING = [(2.2, 0.934, 1.0), (3.97, 1.557, 1.048), (7.15, 2.04, 1.207), (22.8, 
 class Body:
     """A ball, a half-space ("block") or a wall, elastic if its strength is None."""
 
-    def __init__(self, shape, strength=1.0, diameter=DIAMETER, modulus=MODULUS, nu=0.3, hardening=0.0):
+    def __init__(self, shape, strength=1.0, diameter=DIAMETER, modulus=MODULUS, nu=0.3, hardening=0.0, swift=None):
         self.shape, self.strength, self.diameter, self.modulus = shape, strength, diameter, modulus
-        self.nu, self.hardening = nu, hardening
+        self.nu, self.hardening, self.swift = nu, hardening, swift
 
     def compliance(self):
         return 0.0 if self.shape == "wall" else (1.0 - self.nu**2) / self.modulus
@@ -60,6 +61,8 @@ class Body:
             text += f"[material.{name}.flow]\nyield_strength = {self.strength * unit!r}\n"
             if self.hardening > 0.0:
                 text += f"hardening = {{ modulus = {self.hardening * self.modulus!r} }}\n"
+            if self.swift:
+                text += "hardening = {{ swift = {{ strain = {}, exponent = {} }} }}\n".format(*self.swift)
         text += f'[[body]]\nname = "{name}"\n{shape}\nmaterial = "{name}"\n'
         return text + (f"approach_speed = {speed!r}\n" if speed else "")
 
@@ -75,6 +78,12 @@ def scenes():
         yield "wall", wall, Body("ball", nu=nu), 230.0, few
     for hardening in [0.01, 0.05, 0.1]:
         yield "wall", wall, Body("ball", hardening=hardening), 230.0, few
+    yield "wall", wall, Body("ball"), SOFTEST, [100.0, 1e3, 1e4, 1e5]
+    for swift in [(0.002, 0.2), (0.002, 0.5), (0.01, 0.3)]:
+        yield "wall", wall, Body("ball", swift=swift), 500.0, [10.0, 100.0, 1000.0]
+    yield "wall", wall, Body("ball", swift=(0.0005, 0.3)), 1000.0, [100.0, 3000.0]
+    yield "wall", wall, Body("ball", swift=(0.001, 0.1)), 200.0, [30.0, 300.0]
+    yield "wall", wall, Body("ball", swift=(0.002, 0.2)), 2000.0, [30.0, 1000.0, 20000.0]
     yield "twins", Body("ball"), Body("ball"), 230.0, few
     yield "radius 3 : 1", Body("ball", diameter=3.0 * DIAMETER), Body("ball"), 230.0, few
     yield "strength 1.5 : 1", Body("ball", strength=1.5), Body("ball"), 230.0, few
@@ -126,7 +135,9 @@ class Impact:
         }
 
     def meshes(self):
-        """Returns the numbers of elements across the contact radius of both runs."""
+        """Returns the numbers of elements across the contact radius of both runs; None is the mesh of the program."""
+        if self.second.swift or self.ratio == SOFTEST:
+            return [None]
         return MESHES_OF_FAST_IMPACTS_ON_A_WALL if self.times >= FAST and self.name == "wall" else MESHES
 
     def expected_radius(self):
@@ -143,9 +154,10 @@ class Impact:
 
     def run(self, program, elements):
         """Returns the quantities of a run with this number of elements across the contact radius."""
-        size = self.expected_radius() / elements
         case = self.first.case("lower", self.strength, 0.0) + self.second.case("upper", self.strength, self.speed)
-        case += f"[mesh]\ncontact_element_size = {size!r}\n[output]\nsnapshots = []\n"
+        if elements:
+            case += f"[mesh]\ncontact_element_size = {self.expected_radius() / elements!r}\n"
+        case += "[output]\nsnapshots = []\n"
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "case.toml")
             with open(path, "w") as file:
@@ -158,6 +170,10 @@ class Impact:
                 summary = json.load(file)
             with open(os.path.join(out, "history.csv")) as file:
                 history = list(csv.DictReader(file))
+        return self.found(summary, history)
+
+    def found(self, summary, history):
+        """Returns the quantities of a summary and a history."""
         found = {key: summary[name] for key, name in QUANTITIES.items()}
         limit = 1e-3 * found["peak_force"]
         touching = [float(row["approach_m"]) for row in history if float(row["contact_force_n"]) > limit]
@@ -168,19 +184,30 @@ class Impact:
         found["plastic_strain"] = dent["max_plastic_strain"] if dent else 0.0
         found["locked_in"] = (summary["energy"].get("locked_in_j") or 0.0) / self.energy
         found["seconds"] = summary["cost"]["wall_s"]
+        found["bars"] = {key: summary["uncertainty"][name]["discretisation"] for key, name in QUANTITIES.items()}
         return found
 
-    def row(self, coarse, fine):
-        """Returns the row of both runs."""
+    def row(self, coarse, fine=None):
+        """Returns the row of both runs, or of one with the mesh of the program."""
+        bars = coarse.pop("bars")
+        if fine is None:
+            return self.row_of(coarse, bars, coarse["seconds"])
+        fine.pop("bars")
         share = 0.0 if self.times >= FAST else 0.5
         value = {key: fine[key] + share * (fine[key] - coarse[key]) for key in fine}
         bar = {key: (1.0 - share) * abs(fine[key] - coarse[key]) for key in fine}
         if self.times >= FAST:
             bar["restitution"] = max(bar["restitution"], SCATTER * value["restitution"])
+        return self.row_of(value, bar, coarse["seconds"] + fine["seconds"])
+
+    def row_of(self, value, bar, seconds):
+        """Returns the row of quantities with their error bars."""
         row = {
             "scene": self.name,
             "nu": self.nu,
             "hardening_over_modulus": self.second.hardening,
+            "swift_strain": (self.second.swift or (1.0, 0.0))[0],
+            "swift_exponent": (self.second.swift or (1.0, 0.0))[1],
             "modulus_over_strength": self.ratio,
             "speed_over_yield_speed": self.times,
             "speed_m_s": self.speed,
@@ -197,7 +224,7 @@ class Impact:
         row["dent_crown_over_radius"] = value["dent_crown"] / self.radius
         row["max_plastic_strain"] = value["plastic_strain"]
         row["locked_in_share"] = value["locked_in"]
-        row["seconds"] = coarse["seconds"] + fine["seconds"]
+        row["seconds"] = seconds
         return {key: item if isinstance(item, str) else f"{item:.5g}" for key, item in row.items()}
 
 
@@ -205,6 +232,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--scenes", nargs="*")
+    parser.add_argument("--ratios", type=float, nargs="*")
     parser.add_argument("--speeds", type=float, nargs=2, default=[0.0, math.inf])
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     given = parser.parse_args()
@@ -212,6 +240,7 @@ def main():
         Impact(name, first, second, ratio, times)
         for name, first, second, ratio, speeds in scenes()
         if not given.scenes or name in given.scenes
+        if not given.ratios or ratio in given.ratios
         for times in speeds
         if given.speeds[0] <= times <= given.speeds[1]
     ]

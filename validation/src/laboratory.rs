@@ -85,9 +85,10 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Runs a case of any model, or takes the result of an earlier run of it. A partner that the plan treats as rigid
-    /// gets no elements, which would need thousands of times as many steps.
+    /// gets no elements, which would need thousands of times as many steps, and a ball under gravity has all of its contacts.
     pub fn simulate(&self, case: Case) -> Result<Arc<Run>, StudyError> {
-        if *case.scene().model() == ModelChoice::Fem && !has_rigid_partner(&case) {
+        let is_one_contact = case.scene().gravity().is_none() && !has_rigid_partner(&case);
+        if *case.scene().model() == ModelChoice::Fem && is_one_contact {
             return self.run(case).map(|run| Arc::new(run.run.clone()));
         }
         if self.observer.is_interrupted() {

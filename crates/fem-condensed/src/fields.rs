@@ -169,11 +169,17 @@ impl CondensedPair {
         let instants: Vec<TraceInstant> =
             (0..last).step_by(stride).chain([last]).map(TraceInstant::at).collect();
         let states = self.states(frame, damping, Steps { time_step, last }, &instants)?;
+        let is_whole = damping.radiation == [None, None];
         let mut seen = Vec::with_capacity(instants.len());
         for (instants, states) in
             instants.chunks(SNAPSHOTS_AT_ONCE).zip(states.chunks(SNAPSHOTS_AT_ONCE))
         {
-            let all = self.pictures(frame, damping, time_step, instants, states)?;
+            let mut all = self.pictures(frame, damping, time_step, instants, states)?;
+            for (snapshot, [now, _]) in all.iter_mut().zip(states) {
+                let centres = frame.approach.centres(self.masses(), now.approach, 0.0);
+                snapshot.contact =
+                    self.profile(&now.contact, &snapshot.bodies, centres, is_whole)?;
+            }
             seen.extend(all.iter().map(|one| probes.reduce(materials, one)));
         }
         Ok(seen)

@@ -190,7 +190,7 @@ impl FreeMotion {
     pub fn stress(&self) -> StressField {
         let mut fields = BodyFields::default();
         self.body.update_stress_fields(&self.state, &mut fields);
-        self.body.stress(&fields)
+        self.body.stress(&fields, None)
     }
 
     fn at_nodes(&self, field: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {

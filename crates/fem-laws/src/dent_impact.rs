@@ -9,7 +9,7 @@
 //! ```
 //!
 //! and δ = δ_m − ℓ sin² θ over the length ℓ of a branch removes the roots at both of its ends. Both integrals are sums over
-//! panels in θ, with five points each; first yield is the end of a panel. The error is about 1e-10. With gravity g a ball whose rebound does
+//! panels in θ, with five points each; first yield is the end of a panel. The error is about 1e-10, and 1e-8 where the slope of a law jumps elsewhere. With gravity g a ball whose rebound does
 //! not lift it out of its dent stays there.
 
 use std::f64::consts::{FRAC_PI_2, PI};

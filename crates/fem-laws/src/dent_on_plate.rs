@@ -12,14 +12,18 @@
 //! shortened. The kink of the force at first yield leaves an error of about 1e-7. Without a plate [`crate::dent_impact`] needs
 //! no steps.
 
+use std::f64::consts::PI;
+
 use crate::error::{LawError, positive};
-use crate::impact::{Impact, ImpactInstant, restitution};
+use crate::impact::{Impact, ImpactInstant, ImpactQuantities, restitution};
 use crate::laws::{ContactLaw, ElasticPlastic};
 use crate::numerics::bisection::falling_zero;
 use crate::pair::Pair;
 
 /// Steps per unit of time of the elastic contact, which lasts about three of them.
 const STEPS_PER_UNIT: f64 = 400.0;
+/// The same for quantities without a history.
+const FEW_STEPS_PER_UNIT: f64 = 50.0;
 /// Steps per instant of the history.
 const STEPS_PER_INSTANT: usize = 8;
 const MAX_STEPS: usize = 1_000_000;
@@ -65,6 +69,38 @@ impl Motion {
 /// A result that leaves the range of f64; a motion that does not end.
 pub(crate) fn collide(
     pair: &Pair,
+    law: (&ContactLaw, &ElasticPlastic),
+    plate_and_gravity: (f64, f64),
+    speed: f64,
+) -> Result<Impact, LawError> {
+    in_steps(STEPS_PER_UNIT, pair, law, plate_and_gravity, speed)
+}
+
+/// Returns the quantities of the collision without gravity, to about 1e-4. The pressure is the mean one.
+///
+/// # Errors
+/// Those of [`collide`].
+pub(crate) fn quantities(
+    pair: &Pair,
+    law: (&ContactLaw, &ElasticPlastic),
+    mobility: f64,
+    speed: f64,
+) -> Result<ImpactQuantities, LawError> {
+    let impact = in_steps(FEW_STEPS_PER_UNIT, pair, law, (mobility, 0.0), speed)?;
+    Ok(ImpactQuantities {
+        restitution: impact.restitution,
+        contact_time: impact.contact_time.unwrap_or(f64::INFINITY),
+        peak_force: impact.peak_force,
+        max_approach: impact.max_approach,
+        max_contact_radius: impact.max_contact_radius,
+        peak_pressure: impact.peak_force / (PI * impact.max_contact_radius.powi(2)),
+    })
+}
+
+/// Returns the collision in these steps per unit of time of the elastic contact.
+fn in_steps(
+    steps_per_unit: f64,
+    pair: &Pair,
     (law, dent): (&ContactLaw, &ElasticPlastic),
     (mobility, gravity): (f64, f64),
     speed: f64,
@@ -74,7 +110,7 @@ pub(crate) fn collide(
     let length = (mass / law.stiffness()).powf(inverse) * speed.powf(2.0 * inverse);
     let unit = positive("contact law contact_time", length / speed)?;
     let lambda = mobility * mass / unit;
-    let time_step = unit / (STEPS_PER_UNIT * (1.0 + lambda));
+    let time_step = unit / (steps_per_unit * (1.0 + lambda));
     let motion = Motion { mass, mobility, gravity };
     let not_finished =
         |time| LawError::NotFinished { model: "contact law", n_steps: MAX_STEPS, time };

@@ -1,7 +1,7 @@
 //! Laws by name, made from the table of [`crate::contact_laws`]: what case files, fits and inverse
 //! problems read.
 
-use fem_material::Material;
+use fem_material::{FlowStress, Material};
 
 use crate::error::LawError;
 use crate::laws;
@@ -296,6 +296,12 @@ impl LawFamily {
             self,
             Thornton | Johnson | JacksonGreen | Brake | MeanPressure | Mdr | WaltonBraun | Luding
         )
+    }
+
+    /// Returns the index of the parameter that is a yield strength, a pressure or a hardness, of a law that has one.
+    pub fn strength_parameter(self) -> Option<usize> {
+        let is_it = |parameter: &LawParameter| parameter.role == ParameterRole::Strength;
+        self.parameters().iter().position(is_it)
     }
 
     /// Returns the index of the parameter that a fit varies to match the loss: the first one that damps, or else the

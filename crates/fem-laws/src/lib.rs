@@ -80,8 +80,8 @@ pub use pair::{Pair, Partner, compliance_shares, restitution_of_mass_centres, sp
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, YieldingBody, largest_von_mises};
 pub use plate::{
-    FreePlate, SINKING_LAMBDA, plate_lambda, plate_mobility, plate_slow_contact_error,
-    plate_thickness_error, plate_thickness_factor, plate_wave_travel,
+    FreePlate, LOSS_PER_LAMBDA, SINKING_LAMBDA, plate_lambda, plate_mobility,
+    plate_slow_contact_error, plate_thickness_error, plate_thickness_factor, plate_wave_travel,
 };
 pub use radiation::{
     radiated_share, radiation_coefficient, radiation_damping, rayleigh_wave_speed,

@@ -14,7 +14,8 @@
 //! \lambda = \beta m\,(K/m)^{2/5}v^{1/5},
 //! ```
 //!
-//! and e ≈ exp(−1.719 λ) at small λ. At large λ the plate stops the ball slowly, under a force of v/λ, until the contact is so
+//! and e ≈ exp(−1.730 λ) at small λ: a soft dashpot takes λ∫u³dt of Hertz' motion, 1 − e = ⅘ (5/4)^(8/5) B(8/5, ½) λ with Euler's beta
+//! function B. At large λ the plate stops the ball slowly, under a force of v/λ, until the contact is so
 //! soft that it parts: e = 0.679 λ⁻⁵. From [`SINKING_LAMBDA`] on the models take that as 0.
 //!
 //! Limits: the plate is thin against the distance that waves travel in the contact time T, and no wave returns from its edge
@@ -35,6 +36,9 @@ use crate::numerics::functions::power;
 
 /// λ from which a ball sinks in with the plate: the restitution by Zener's equation is then below 1e-8.
 pub const SINKING_LAMBDA: f64 = 40.0;
+
+/// d ln e/dλ at small λ: e = exp(−1.719 λ).
+pub const LOSS_PER_LAMBDA: f64 = 1.719;
 
 /// Returns the point mobility β of an infinite thin plate, m/(N s), with the instantaneous moduli; `thickness` is in metres.
 pub fn plate_mobility(material: &Material, thickness: f64) -> f64 {
@@ -77,17 +81,19 @@ impl FreePlate {
     /// # Errors
     /// Surface waves come back from the edge within the contact.
     pub fn mobility_in(&self, hertz: &HertzImpact) -> Result<Option<f64>, LawError> {
-        let Self { material, thickness, diameter } = self;
+        let Self { material, diameter, .. } = self;
         let contact_time = hertz.contact_time();
         let value = crate::rayleigh_wave_speed(material) * contact_time / diameter;
         if value > 1.0 {
             let quantity = "way of surface waves within the contact / diameter of the plate";
             return Err(LawError::OutsideValidity { quantity, value, limit: 1.0 });
         }
-        if material.dilatational_wave_speed() * contact_time < 2.0 * thickness {
-            return Ok(None);
-        }
-        Ok(Some(self.mobility(hertz)))
+        Ok((!self.is_half_space(hertz)).then(|| self.mobility(hertz)))
+    }
+
+    /// Returns whether no wave returns from the lower face within Hertz' contact.
+    pub fn is_half_space(&self, hertz: &HertzImpact) -> bool {
+        self.material.dilatational_wave_speed() * hertz.contact_time() < 2.0 * self.thickness
     }
 }
 

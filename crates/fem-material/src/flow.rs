@@ -15,6 +15,11 @@ use crate::error::{MaterialError, not_negative, positive};
 /// Largest number of rows of a table of flow stress.
 pub const MAX_FLOW_ROWS: usize = 64;
 
+/// Part of a plastic strain at which Swift's law has the value of a table, besides that strain itself.
+const INNER: f64 = 0.125;
+/// Logarithms of ε/ε_s between which that law is sought: from a straight line to a plateau.
+const LOGS_OF_STRAIN_OVER_REFERENCE: (f64, f64) = (-7.0, 60.0);
+
 /// A point of a table: the flow stress at an equivalent plastic strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowPoint {
@@ -90,6 +95,55 @@ pub(crate) struct FlowLine {
     pub slope: f64,
 }
 
+/// A flow stress in closed form, Y (1 + ε/ε_s)ⁿ + H ε: Swift's law and a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlowStress {
+    /// Flow stress at first yield Y, Pa.
+    pub yield_strength: f64,
+    /// Slope H of the line, Pa.
+    pub modulus: f64,
+    /// Reference strain ε_s, above 0.
+    pub strain: f64,
+    /// Exponent n, at least 0; 0 without Swift's law.
+    pub exponent: f64,
+}
+
+impl FlowStress {
+    /// Returns the flow stress of a perfectly plastic material with a yield strength, Pa.
+    pub fn perfect(yield_strength: f64) -> Self {
+        Self { yield_strength, modulus: 0.0, strain: 1.0, exponent: 0.0 }
+    }
+
+    /// Returns the flow stress (Pa) at an equivalent plastic strain.
+    pub fn at(&self, plastic_strain: f64) -> f64 {
+        self.power_law(plastic_strain) + self.modulus * plastic_strain
+    }
+
+    /// Returns d ln σ/d ln ε at an equivalent plastic strain: the exponent of the power law that has the same value and slope.
+    pub fn exponent_at(&self, plastic_strain: f64) -> f64 {
+        let swift = self.exponent * plastic_strain / (self.strain + plastic_strain);
+        let slope = swift * self.power_law(plastic_strain) + self.modulus * plastic_strain;
+        slope / self.at(plastic_strain)
+    }
+
+    /// Returns a multiple of the flow stress.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        let Self { yield_strength, modulus, .. } = self;
+        Self { yield_strength: factor * yield_strength, modulus: factor * modulus, ..self }
+    }
+
+    /// Returns the flow stress with another yield strength (Pa), the same line, and Swift's law in proportion.
+    #[must_use]
+    pub fn with_yield_strength(self, yield_strength: f64) -> Self {
+        Self { yield_strength, ..self }
+    }
+
+    fn power_law(&self, plastic_strain: f64) -> f64 {
+        self.yield_strength * (self.exponent * (plastic_strain / self.strain).ln_1p()).exp()
+    }
+}
+
 impl FlowRule {
     /// Creates a flow rule; without a rate factor the flow stress does not depend on the rate.
     ///
@@ -116,6 +170,13 @@ impl FlowRule {
     /// Returns the flow stress (Pa) at an equivalent plastic strain and a rate of it, 1/s.
     pub fn flow_stress(&self, plastic_strain: f64, rate: f64) -> f64 {
         self.curve.flow_stress(plastic_strain) * self.rate.map_or(1.0, |factor| factor.at(rate))
+    }
+
+    /// Returns the flow stress at a rate (1/s) in closed form: exactly if the rule is a line or Swift's law. A table becomes Swift's
+    /// law with the table's values at 0, at a plastic strain and at a part of that; a chord, if its slope does not fall.
+    pub fn closed_form(&self, plastic_strain: f64, rate: f64) -> FlowStress {
+        let factor = self.rate.map_or(1.0, |own| own.at(rate));
+        self.curve.closed_form(plastic_strain).times(factor)
     }
 
     /// Returns the flow stress at first yield and at most the reference rate, Pa.
@@ -151,6 +212,37 @@ impl FlowCurve {
             }
             Hardening::Table(points) => Self::Lines(lines_of(&points)?),
         })
+    }
+
+    fn closed_form(&self, plastic_strain: f64) -> FlowStress {
+        let perfect = FlowStress::perfect(self.flow_stress(0.0));
+        match *self {
+            Self::Swift { strain, exponent, .. } => FlowStress { strain, exponent, ..perfect },
+            Self::Lines(ref lines) if lines.len() == 1 => {
+                FlowStress { modulus: lines[0].slope, ..perfect }
+            }
+            Self::Lines(_) => self.swift_through(plastic_strain, perfect),
+        }
+    }
+
+    /// Returns Swift's law through the flow stress at 0, at a plastic strain and at [`INNER`] of it: the ratio of both
+    /// growths of ln σ, ln(1 + x INNER)/ln(1 + x) with x = ε/ε_s, falls from 1 to INNER as ε_s grows.
+    fn swift_through(&self, plastic_strain: f64, perfect: FlowStress) -> FlowStress {
+        let growth = |strain: f64| (self.flow_stress(strain) / perfect.yield_strength).ln();
+        let [inner, outer] = [INNER * plastic_strain, plastic_strain].map(growth);
+        if inner <= INNER * outer {
+            let rise = self.flow_stress(plastic_strain) - perfect.yield_strength;
+            return FlowStress { modulus: rise / plastic_strain, ..perfect };
+        }
+        let ratio = |log: f64| (INNER * log.exp()).ln_1p() / log.exp().ln_1p();
+        let (mut low, mut high) = LOGS_OF_STRAIN_OVER_REFERENCE;
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if ratio(middle) < inner / outer { low = middle } else { high = middle }
+        }
+        let over = low.exp();
+        let (strain, exponent) = (plastic_strain / over, outer / over.ln_1p());
+        FlowStress { strain, exponent, ..perfect }
     }
 
     fn flow_stress(&self, plastic_strain: f64) -> f64 {

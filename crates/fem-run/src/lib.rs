@@ -42,6 +42,7 @@ pub use text::failure::{Failure, Status};
 /// and invalid command lines end the process.
 pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let started = Instant::now();
+    progress::interrupt::survive_file_limits();
     match arguments::parse(words).execute(started) {
         Ok(()) => 0,
         Err(failure) => {

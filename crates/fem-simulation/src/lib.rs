@@ -26,7 +26,7 @@ pub use error::{
 };
 pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
-pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
+pub use estimate::plastic_flow::{FlowingImpact, flowing_impact, mean_pressure_impact};
 pub use estimate::plate_impact::free_plate;
 pub use estimate::quasi_static::ting_impact;
 pub use models::method::{
@@ -48,9 +48,9 @@ pub use results::Summary;
 pub use results::diagnostics::diagnose;
 pub use results::grouped_warnings::{WarningKind, WarningKinds};
 pub use results::stop_advice::{StopAdvice, stop_advice};
-pub use results::stress::BodyStress;
 pub use simulation::Simulation;
 pub use simulation::checkpoint::{
     CheckpointError, CheckpointHead, checkpoint, checkpoint_head, restart_state_of,
 };
 pub use simulation::identity::{Identity, NUMERICS, case_identity, digest_of, identified, name_of};
+pub use simulation::stress::BodyStress;

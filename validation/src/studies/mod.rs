@@ -15,6 +15,7 @@ mod relaxing;
 mod sections;
 mod summary;
 mod surface_slip;
+mod surface_stress;
 mod vibration;
 mod vibration_loss;
 mod viscoelastic;
@@ -48,6 +49,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("soft_random", random_scenes::soft_scenes_study),
     ("summary", summary::study),
     ("surface_slip", surface_slip::study),
+    ("surface_stress", surface_stress::study),
     ("uniform_stress", mechanics::uniform_stress::study),
     ("vibration", vibration::study),
     ("vibration_loss", vibration_loss::study),

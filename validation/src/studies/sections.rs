@@ -18,7 +18,7 @@ pub fn halves(run: &ExplicitRun, snapshot: &Snapshot, unit: f64) -> [Section; 2]
     let bodies = run.model.bodies().iter().zip(&snapshot.bodies);
     for (k, (body, fields)) in bodies.enumerate() {
         let Some(mesh) = body.mesh() else { continue };
-        let stress = body.stress(fields).points;
+        let stress = body.stress(fields, Some(&snapshot.contact)).points;
         let nodes = mesh.nodes().iter().zip(snapshot.displacement(k));
         halves[k] = Section {
             points: nodes

@@ -1,5 +1,7 @@
 //! Measures the quantities of each run: `NAME.restitution`, `NAME.contact_time`, ….
 
+use fem_collision::Account;
+
 use crate::{Findings, Laboratory, Run, StudyError};
 
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
@@ -21,6 +23,8 @@ pub(crate) fn quantities(run: &Run) -> impl Iterator<Item = (&'static str, f64)>
     let vibration = collision.bodies.iter().filter_map(|body| body.vibration_energy);
     let vibration = known(vibration.reduce(|lower, upper| lower + upper));
     let (contact_time, peak_force) = (known(collision.contact_time), known(collision.peak_force));
+    let second = collision.bounces.get(1).map(|bounce| bounce.restitution);
+    let strain = collision.energies.get(Account::Strain);
     [
         ("restitution", run.restitution),
         ("loss", 1.0 - run.restitution),
@@ -35,6 +39,8 @@ pub(crate) fn quantities(run: &Run) -> impl Iterator<Item = (&'static str, f64)>
         ("energy_residual", known(collision.residual_relative)),
         ("momentum_residual", known(collision.momentum_residual_relative)),
         ("vibration_energy_share", vibration / known(collision.initial_energy)),
+        ("second_restitution", known(second)),
+        ("strain_energy_share", known(strain) / known(collision.initial_energy)),
     ]
     .into_iter()
 }

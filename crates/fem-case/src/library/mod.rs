@@ -112,14 +112,15 @@ impl LikeMaterial {
     pub fn of(material: &fem_material::Material) -> Option<Self> {
         const ALIKE: f64 = 0.05;
         const EQUALLY_NEAR: f64 = 0.01;
-        static NUMBERS: LazyLock<Vec<(&str, [f64; 2], Option<f64>)>> = LazyLock::new(|| {
+        type Numbers = (&'static str, [f64; 2], Option<f64>);
+        static NUMBERS: LazyLock<Vec<Numbers>> = LazyLock::new(|| {
             let numbers = |(name, entry): (&'static String, &'static Material)| {
                 Some((name.as_str(), entry.stiffness_and_density()?, entry.yield_strength()))
             };
             materials().iter().filter_map(numbers).collect()
         });
         let own = [material.instantaneous().youngs_modulus(), material.density()];
-        let known = |(name, numbers, yield_strength): &(&'static str, [f64; 2], Option<f64>)| {
+        let known = |(name, numbers, yield_strength): &Numbers| {
             let ratios = numbers.iter().zip(own).map(|(a, b)| (a / b).ln().abs());
             let distance: f64 = ratios.sum();
             let (name, yield_strength) = (*name, *yield_strength);

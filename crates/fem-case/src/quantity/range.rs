@@ -29,6 +29,11 @@ impl Range {
     pub const TOLERANCE: Self = Self::above(0.0, 0.5);
     /// Tolerances of integrations.
     pub const INTEGRATION_TOLERANCE: Self = Self::from(1e-10, 1e-2);
+    /// Works of adhesion, J/m²: over a range of 0.4 nm the largest pulls with 2.6 TPa, by the attraction of Lennard and Jones, which no
+    /// solid bears.
+    pub const WORK_OF_ADHESION: Self = Self::from(0.0, 1000.0);
+    /// Surface energies, J/m², of which two are a work of adhesion.
+    pub const SURFACE_ENERGY: Self = Self::above(0.0, 500.0);
     pub const RESTITUTION: Self = Self::above(0.0, 1.0);
     #[cfg(feature = "schema")]
     pub const POISSONS_RATIO: Self = Self::between(-1.0, 0.5);

@@ -20,6 +20,9 @@ pub(crate) fn parse(text: &str) -> Result<(f64, Option<f64>, Dimension), UnitErr
     };
     let malformed = |message: &str| Err(UnitError::Malformed(message.to_string()));
     let (unit, unit_of_spread) = (unit_of(value)?, unit_of(spread)?);
+    if unit_of_spread != RELATIVE && unit_of_spread.contains(RELATIVE) {
+        return malformed("its uncertainty is a share and has a unit: write one of both");
+    }
     let is_relative = unit_of_spread == RELATIVE && unit != RELATIVE;
     let value = match unit {
         "" if !is_relative => format!("{value} {unit_of_spread}"),
@@ -59,8 +62,16 @@ mod tests {
             assert!((uncertainty.unwrap() - spread).abs() < 1e-12 * spread, "{text}");
         }
         assert_eq!(parse("70 GPa").unwrap().1, None);
-        for text in ["70 GPa ± -2 GPa", "70 GPa ± 2 mm", "± 2 GPa", "70 GPa ±", "1 ± 2 ± 3 m"]
-        {
+        for text in [
+            "70 GPa ± -2 GPa",
+            "70 GPa ± 2 mm",
+            "± 2 GPa",
+            "70 GPa ±",
+            "1 ± 2 ± 3 m",
+            "70 GPa ± 3 % GPa",
+            "70 ± 3 %GPa",
+            "70 GPa ± 3 GPa %",
+        ] {
             assert!(parse(text).is_err(), "{text}");
         }
     }

@@ -258,6 +258,25 @@ impl Scene {
         &self.inputs
     }
 
+    /// Returns the uncertainty of the work of adhesion, J/m²; 0 if the case gives none.
+    pub fn adhesion_uncertainty(&self) -> f64 {
+        let relative = |key: &str, value: Option<f64>| {
+            let is_it =
+                |input: &&UncertainInput| input.key.ends_with(key) && Some(input.value) == value;
+            let found = self.inputs.iter().find(is_it);
+            found.map_or(0.0, |input| input.uncertainty / input.value)
+        };
+        if let Some(work) = self.work_of_adhesion.filter(|work| *work > 0.0) {
+            return work * relative("work_of_adhesion", Some(work));
+        }
+        let energies = self.bodies.each_ref().map(|body| body.surface_energy);
+        let [lower, upper] = energies.map(|energy| relative("surface_energy", energy));
+        // W = 2√(γ₁γ₂), where one material of both bodies is one input, and a wall has the energy of the other body.
+        let is_one = energies[0] == energies[1] || energies.contains(&None);
+        let of_work = if is_one { lower.max(upper) } else { 0.5 * lower.hypot(upper) };
+        self.work_of_adhesion().value() * of_work
+    }
+
     /// Returns the uncertainty of the yield strength of a body, Pa; 0 if the case gives none.
     pub fn strength_uncertainty(&self, body: &Body) -> f64 {
         let is_it = |input: &&UncertainInput| {
@@ -421,6 +440,17 @@ pub enum Snapshots {
     Count(usize),
     /// Times, s, ≥ 0, in ascending order.
     Times(Vec<f64>),
+}
+
+impl Snapshots {
+    /// Returns whether no snapshot is requested.
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Self::Labels(labels) => labels.is_empty(),
+            Self::Count(n) => *n == 0,
+            Self::Times(times) => times.is_empty(),
+        }
+    }
 }
 
 /// `[accuracy]`: the tolerances of the results, all > 0.

@@ -28,8 +28,9 @@ const SMALL_MODULUS: f64 = 1e5;
 /// Plausible yield strengths, Pa: soft waxes and greases have 10 kPa, diamond about 100 GPa.
 pub(crate) const YIELD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e4..=2e11;
 
-/// Share of the contact compliance above which the losses of a body matter.
-const MIN_SHARE: f64 = 1e-3;
+/// Share of the contact compliance, and so of the elastic energy, above which the loss of a body matters: of a twentieth of the
+/// energy solids lose little.
+const MIN_SHARE: f64 = 0.05;
 
 /// Young's modulus (Pa) below which a solid is a polymer, whose own loss in an impact is not small beside that by plastic flow
 /// (Ashby 2011, chart of loss coefficient and modulus: above it the loss coefficient is mostly below 0.01).

@@ -89,7 +89,7 @@ impl Check<'_> {
             material,
             yield_strength,
             is_elastic: table.elastic.unwrap_or_default(),
-            surface_energy: self.optional(&at("surface_energy"), energy, Range::POSITIVE)?,
+            surface_energy: self.optional(&at("surface_energy"), energy, Range::SURFACE_ENERGY)?,
             measured,
         })
     }

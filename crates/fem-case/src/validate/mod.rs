@@ -69,7 +69,7 @@ pub(crate) fn validate(
         },
         contact_method: contact.method,
         penalty_factor: number!(contact.penalty_factor, Range::POSITIVE),
-        work_of_adhesion: number!(contact.work_of_adhesion, Range::NOT_NEGATIVE),
+        work_of_adhesion: number!(contact.work_of_adhesion, Range::WORK_OF_ADHESION),
         step_factor: number!(time.step_factor, Range::STEP_FACTOR),
         mass_scaling: number!(time.mass_scaling, Range::MASS_SCALING),
         snapshots: output.snapshots.as_ref().map(|value| check.snapshots(value)).transpose()?,

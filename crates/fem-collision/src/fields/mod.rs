@@ -1,8 +1,9 @@
-//! Fields of both bodies: snapshots, the stress recovered from them, and probes.
+//! Fields of both bodies: snapshots, the stress recovered from them, in the body and at its surface, and probes.
 
 mod probe;
 mod snapshot;
 mod stress;
+mod surface;
 
 pub use probe::{Probe, ProbeRequest, Probes};
 pub use snapshot::{

@@ -1,13 +1,14 @@
 //! Probes: points of a body whose fields are recorded over time.
 //!
 //! A probe moves with the material. Displacement and velocity are interpolated from the four nodes of its element with the
-//! element's shape functions, and so is the recovered nodal stress ([`StressRecovery`]).
+//! element's shape functions, and so is the recovered nodal stress ([`StressRecovery`]), at the surface with the traction.
 
 use fem_element::QuadGeometry;
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
 
+use super::surface::{Surface, SurfaceState};
 use crate::fields::{BodyFields, ContactProfile, SmallStrain, Snapshot, StressRecovery};
 
 /// A requested probe.
@@ -32,9 +33,17 @@ pub struct Probe {
     /// Shape functions of the element's corners; their sum is 1.
     shares: [f64; 4],
     elements: Vec<Element>,
-    /// Per corner the elements around it, as indices of `elements`, and their weights.
-    around: [Vec<(usize, f64)>; 4],
-    on_axis: [bool; 4],
+    corners: [Corner; 4],
+}
+
+/// A corner of a probe's element.
+#[derive(Debug, Clone)]
+struct Corner {
+    /// The elements around it, as indices of `elements`, and their weights.
+    weights: Vec<(usize, f64)>,
+    is_on_axis: bool,
+    /// Its position on the surface and its own elements, as indices of `elements`.
+    on_surface: Option<(usize, Vec<usize>)>,
 }
 
 /// An element that contributes to the stress.
@@ -58,21 +67,33 @@ impl Probe {
         let (number, own, _) = found.min_by(|one, other| one.2.total_cmp(&other.2))?;
         let quad = mesh.quads()[number];
         let mut elements: Vec<Element> = Vec::new();
-        let around = quad.map(|node| {
-            let place = |&(number, weight): &(u32, f64)| {
-                let number = number as usize;
-                let known = elements.iter().position(|element| element.number == number);
-                let at = known.unwrap_or_else(|| {
-                    let (quad, geometry) = (mesh.quads()[number], *recovery.geometry(number));
-                    elements.push(Element { number, quad, geometry });
-                    elements.len() - 1
-                });
-                (at, weight)
-            };
-            recovery.weights(node as usize).iter().map(place).collect()
+        let mut index_of = |number: u32| {
+            let number = number as usize;
+            let known = elements.iter().position(|element| element.number == number);
+            known.unwrap_or_else(|| {
+                let (quad, geometry) = (mesh.quads()[number], *recovery.geometry(number));
+                elements.push(Element { number, quad, geometry });
+                elements.len() - 1
+            })
+        };
+        let corners = quad.map(|node| {
+            let weights = recovery.weights(node as usize).iter();
+            let surface = recovery.surface();
+            let own = |position: usize| surface.elements(position).to_vec();
+            Corner {
+                weights: weights.map(|&(number, weight)| (index_of(number), weight)).collect(),
+                is_on_axis: mesh.axis().contains(&node),
+                on_surface: surface.position(node).map(|position| {
+                    (position, own(position).into_iter().map(&mut index_of).collect())
+                }),
+            }
         });
-        let on_axis = quad.map(|node| mesh.axis().contains(&node));
-        Some(Self { quad, shares: shape(own), elements, around, on_axis })
+        Some(Self { quad, shares: shape(own), elements, corners })
+    }
+
+    /// Returns whether its stress depends on that of the surface.
+    fn is_at_surface(&self) -> bool {
+        self.corners.iter().any(|corner| corner.on_surface.is_some())
     }
 
     /// Interpolates a nodal field, such as the displacement (r, y), m, or the velocity, m/s.
@@ -86,8 +107,13 @@ impl Probe {
         sum
     }
 
-    /// Returns the stress (σ_rr, σ_yy, σ_θθ, σ_ry) of a body's fields, tension positive, Pa.
-    pub fn stress(&self, material: &Material, fields: &BodyFields) -> [f64; 4] {
+    /// Returns the stress (σ_rr, σ_yy, σ_θθ, σ_ry) of a body's fields and its surface, tension positive, Pa.
+    fn stress(
+        &self,
+        material: &Material,
+        fields: &BodyFields,
+        surface: Option<&SurfaceState>,
+    ) -> [f64; 4] {
         let small_strain = SmallStrain::of(material, &fields.displacement, &fields.effective);
         let of_element = |element: &Element| match fields.stress.get(element.number) {
             Some(stress) => *stress,
@@ -95,15 +121,22 @@ impl Probe {
         };
         let cells: Vec<[f64; 4]> = self.elements.iter().map(of_element).collect();
         let mut sum = [0.0; 4];
-        for corner in 0..4 {
+        for (corner, share) in self.corners.iter().zip(self.shares) {
             let mut at_node = [0.0; 4];
-            for &(element, weight) in &self.around[corner] {
+            for &(element, weight) in &corner.weights {
                 (0..4).for_each(|k| at_node[k] += weight * cells[element][k]);
             }
-            if self.on_axis[corner] {
+            if let (Some(surface), Some((position, own))) = (surface, &corner.on_surface) {
+                let around = own.iter().map(|&k| {
+                    let Element { number, quad, geometry } = &self.elements[k];
+                    small_strain.state(geometry, quad, cells[k], fields.plastic.get(*number))
+                });
+                at_node = surface.stress(*position, around, at_node);
+            }
+            if corner.is_on_axis {
                 at_node = StressRecovery::on_axis(at_node);
             }
-            (0..4).for_each(|k| sum[k] += self.shares[corner] * at_node[k]);
+            (0..4).for_each(|k| sum[k] += share * at_node[k]);
         }
         sum
     }
@@ -114,6 +147,8 @@ impl Probe {
 pub struct Probes {
     /// The body and the probe of each request; `None` if the point is outside of the mesh.
     found: Vec<Option<(usize, Probe)>>,
+    /// The surfaces of the bodies that have a probe near their surface.
+    surfaces: [Option<Surface>; 2],
 }
 
 impl Probes {
@@ -127,7 +162,13 @@ impl Probes {
             let recovery = recoveries.get(request.side)?.as_ref()?;
             Some((request.side, Probe::new(recovery, request.place)?))
         };
-        Self { found: requests.iter().map(find).collect() }
+        let found: Vec<_> = requests.iter().map(find).collect();
+        let surfaces = [0, 1].map(|side: usize| {
+            let mut of_side = found.iter().flatten().filter(|(of, _)| *of == side);
+            let is_needed = of_side.any(|(_, probe)| probe.is_at_surface());
+            recoveries[side].as_ref().filter(|_| is_needed).map(|it| it.surface().clone())
+        });
+        Self { found, surfaces }
     }
 
     /// Returns whether there are no requests.
@@ -158,6 +199,10 @@ impl Probes {
                 ..BodyFields::default()
             }),
         };
+        let surfaces = [0, 1].map(|side: usize| {
+            let moduli = materials[side]?.instantaneous();
+            Some(self.surfaces[side].as_ref()?.state(moduli, &all.bodies[side], &all.contact))
+        });
         for (k, (side, probe)) in
             self.found.iter().enumerate().filter_map(|(k, found)| Some((k, found.as_ref()?)))
         {
@@ -165,7 +210,7 @@ impl Probes {
             to.displacement[k] = probe.interpolate(&from.displacement);
             to.velocity[k] = probe.interpolate(&from.velocity);
             if let Some(material) = materials[*side] {
-                to.stress[k] = probe.stress(material, from);
+                to.stress[k] = probe.stress(material, from, surfaces[*side].as_ref());
             }
         }
         few
@@ -258,7 +303,7 @@ mod tests {
                 // Rounding.
                 assert!((u_r - a * place[0]).abs() < 1e-16, "{place:?} {u_r}");
                 assert!((u_y - b * place[1]).abs() < 1e-16, "{place:?} {u_y}");
-                let stress = probe.stress(&glass, &fields);
+                let stress = probe.stress(&glass, &fields, None);
                 for (value, expected) in stress.into_iter().zip(expected) {
                     // Rounding of strains of 1e-3 and of the fit around a node.
                     assert!(

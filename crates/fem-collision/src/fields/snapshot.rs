@@ -13,7 +13,7 @@ pub enum SnapshotInstant {
     MidSeparation,
     /// The last step with a contact force.
     LastContact,
-    /// Bodies that flowed plastically, unloaded: the mean over the time after the contact, in which vibrations cancel.
+    /// Bodies that flowed plastically, unloaded: in equilibrium with their residual stress, without vibration and bending.
     AfterSeparation,
     /// The last valid state of a run that failed, with a small energy residual.
     #[serde(rename = "LastSound")]
@@ -119,6 +119,21 @@ pub struct ContactProfile {
     /// Points from the axis to the edge of the candidate region: the nodes, the edge of the contact, and points between, so
     /// that linear interpolation gives the contact force. Empty in flight.
     pub places: Vec<ContactProfilePoint>,
+}
+
+impl ContactProfile {
+    /// Returns the contact pressure at a distance from the axis (m), linear between the points, Pa.
+    pub fn pressure_at(&self, radius: f64) -> f64 {
+        let outer = self.places.partition_point(|place| place.radius < radius);
+        let Some(end) = self.places.get(outer) else { return 0.0 };
+        match outer.checked_sub(1).map(|inner| &self.places[inner]) {
+            Some(start) => {
+                let share = (radius - start.radius) / (end.radius - start.radius);
+                start.pressure + share * (end.pressure - start.pressure)
+            }
+            None => end.pressure,
+        }
+    }
 }
 
 /// Both bodies at an instant.

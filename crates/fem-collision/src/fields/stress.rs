@@ -5,22 +5,28 @@ use fem_material::{ActsOn, ElasticModuli, Material};
 use fem_mesh::SphereMesh;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::fields::BodyFields;
+use super::surface::{ElementState, Surface};
+use crate::fields::{BodyFields, ContactProfile};
 
 /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry), tension positive, Pa.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressField {
     /// Mean stress of each element.
     pub cells: Vec<[f64; 4]>,
-    /// Smooth stress at each node, from the best linear fit to the elements around it (superconvergent patch recovery,
-    /// Zienkiewicz & Zhu 1992).
+    /// Smooth stress at each node: inside of the body from the best linear fit to the elements around it (superconvergent
+    /// patch recovery, Zienkiewicz & Zhu 1992), at the surface from its own strain and the contact pressure.
     pub points: Vec<[f64; 4]>,
 }
 
 impl StressField {
-    /// Recovers the stress of a body.
-    pub fn of(mesh: &SphereMesh, material: &Material, fields: &BodyFields) -> Self {
-        StressRecovery::new(mesh).stress(material, fields)
+    /// Recovers the stress of a body under a contact. See [`StressRecovery::stress`].
+    pub fn of(
+        mesh: &SphereMesh,
+        material: &Material,
+        fields: &BodyFields,
+        contact: Option<&ContactProfile>,
+    ) -> Self {
+        StressRecovery::new(mesh).stress(material, fields, contact)
     }
 }
 
@@ -30,6 +36,7 @@ pub struct StressRecovery<'a> {
     mesh: &'a SphereMesh,
     geometries: Vec<QuadGeometry>,
     patches: Patches,
+    surface: Surface,
 }
 
 impl<'a> StressRecovery<'a> {
@@ -37,17 +44,38 @@ impl<'a> StressRecovery<'a> {
     pub fn new(mesh: &'a SphereMesh) -> Self {
         let elements = 0..mesh.quads().len();
         let geometries = elements.map(|element| QuadGeometry::new(&mesh.corners(element)));
-        Self { mesh, geometries: geometries.collect(), patches: Patches::new(mesh) }
+        let (patches, surface) = (Patches::new(mesh), Surface::of(mesh));
+        Self { mesh, geometries: geometries.collect(), patches, surface }
     }
 
     /// Recovers the stress of a body: from the element stresses, if the fields have them (finite strain), or else from its
-    /// displacements with Hooke's law. The patches are those of the undeformed mesh.
-    pub fn stress(&self, material: &Material, fields: &BodyFields) -> StressField {
+    /// displacements with Hooke's law. The patches are those of the undeformed mesh. The surface carries the pressure of
+    /// the contact; without one its traction is not known, and its stress is extrapolated.
+    pub fn stress(
+        &self,
+        material: &Material,
+        fields: &BodyFields,
+        contact: Option<&ContactProfile>,
+    ) -> StressField {
+        let of = SmallStrain::of(material, &fields.displacement, &fields.effective);
+        let elements = self.geometries.iter().zip(self.mesh.quads());
         let cells = match fields.stress.is_empty() {
-            true => self.at_small_strain(material, fields),
+            true => elements.map(|(geometry, quad)| of.stress(geometry, quad)).collect(),
             false => fields.stress.clone(),
         };
         let mut points = self.patches.smooth(&cells);
+        if let Some(contact) = contact {
+            let state = self.surface.state(material.instantaneous(), fields, contact);
+            for (position, &node) in self.surface.nodes().iter().enumerate() {
+                let around = self.surface.elements(position).iter().map(|&element| {
+                    let element = element as usize;
+                    let (geometry, quad) = (&self.geometries[element], &self.mesh.quads()[element]);
+                    of.state(geometry, quad, cells[element], fields.plastic.get(element))
+                });
+                let point = &mut points[node as usize];
+                *point = state.stress(position, around, *point);
+            }
+        }
         for &node in self.mesh.axis() {
             let point = &mut points[node as usize];
             *point = Self::on_axis(*point);
@@ -71,16 +99,14 @@ impl<'a> StressRecovery<'a> {
         self.patches.weights(node)
     }
 
+    /// Returns the surface.
+    pub(crate) fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
     /// Returns the geometry of an element.
     pub(crate) fn geometry(&self, element: usize) -> &QuadGeometry {
         &self.geometries[element]
-    }
-
-    /// Returns the stress of the elements at small strain.
-    fn at_small_strain(&self, material: &Material, fields: &BodyFields) -> Vec<[f64; 4]> {
-        let of = SmallStrain::of(material, &fields.displacement, &fields.effective);
-        let elements = self.geometries.iter().zip(self.mesh.quads());
-        elements.map(|(geometry, quad)| of.stress(geometry, quad)).collect()
     }
 }
 
@@ -120,6 +146,18 @@ impl<'a> SmallStrain<'a> {
             strain[..3].iter_mut().for_each(|e| *e += shift);
         }
         self.moduli.stress(strain)
+    }
+
+    /// Returns the state of an element with this stress, plastic strain and plastic work.
+    pub(crate) fn state(
+        &self,
+        geometry: &QuadGeometry,
+        quad: &[u32; 4],
+        stress: [f64; 4],
+        plastic: Option<&[f64; 2]>,
+    ) -> ElementState {
+        let strain = geometry.mean_strain(&quad.map(|node| self.shear_field[node as usize]));
+        ElementState { stress, strain, flows: plastic.is_some_and(|[strain, _]| *strain > 0.0) }
     }
 }
 

@@ -186,6 +186,16 @@ impl ChangingBound {
         Self { stiffness: bound.stiffness, of_elements, damping: bound.damping }
     }
 
+    /// Returns the bounds of the stiffness at the nodes, N/m, for those of the elements as they are deformed.
+    pub fn current_stiffness(&self, of_elements: &[f64]) -> Vec<f64> {
+        let elements = of_elements.iter().zip(&self.of_elements);
+        self.stiffness
+            .iter()
+            .zip(elements)
+            .map(|(all, (now, before))| all + (now - before))
+            .collect()
+    }
+
     /// Returns the critical time step (s) of the deformed body and the critical node. `bounds_then_steps` holds the present
     /// bounds of the elements with the growth of the contact's (N/m) on entry, and the critical step of each node (s) on
     /// return. A step that is not a number counts as the shortest.

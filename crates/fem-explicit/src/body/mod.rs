@@ -4,17 +4,19 @@
 //! unscaled_body           a body before the time step and mass scaling are known
 //! critical_time_step      bounds of the stiffness at its nodes, critical time step, mass scaling
 //! massless_boundary_mass  masses of a body some of whose surface nodes carry none
+//! equilibrium             a body that has flowed, at rest
 //! state                   displacement, velocity and history, and their motion over a step
 //! ```
 
 mod critical_time_step;
+mod equilibrium;
 mod massless_boundary_mass;
 mod state;
 mod unscaled_body;
 
 use std::sync::Arc;
 
-use fem_collision::{Account, BodyFields, StressField};
+use fem_collision::{Account, BodyFields, ContactProfile, StressField};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
@@ -208,10 +210,10 @@ impl Body {
         self.material.as_ref()
     }
 
-    /// Returns the stress for given fields; empty for a rigid body.
-    pub fn stress(&self, fields: &BodyFields) -> StressField {
+    /// Returns the stress for given fields and the contact that its surface carries, if it is known; empty for a rigid body.
+    pub fn stress(&self, fields: &BodyFields, contact: Option<&ContactProfile>) -> StressField {
         match (&self.mesh, &self.material) {
-            (Some(mesh), Some(material)) => StressField::of(mesh, material, fields),
+            (Some(mesh), Some(material)) => StressField::of(mesh, material, fields, contact),
             _ => StressField::default(),
         }
     }
@@ -368,16 +370,11 @@ impl Body {
         }
     }
 
-    /// Returns the elastic energy, J, that its stress holds. That of a flat body is taken from the elements at finite strain,
-    /// around the contact: waves and bending are elsewhere.
-    pub(crate) fn residual_energy(&self, motion: &Motion<'_>, history: &[NodalField]) -> f64 {
+    /// Returns the elastic energy, J, that its stress holds.
+    pub(crate) fn elastic_energy(&self, motion: &Motion<'_>, history: &[NodalField]) -> f64 {
         let mut accounts = Accounts::default();
-        let is_flat = self.mesh().is_some_and(SphereMesh::is_half_space);
-        match (&self.stress, self.finite_strain()) {
-            (Some(placed), Some(stress)) if is_flat => {
-                stress.add_energies_at_finite_strain(motion, placed.of(history), &mut accounts);
-            }
-            _ => self.add_energies(motion, history, &mut accounts),
+        if let Some(stress) = &self.stress {
+            stress.part.add_energies(motion, stress.of(history), &mut accounts);
         }
         accounts.energies.get(Account::Strain).unwrap_or(0.0)
     }

@@ -56,7 +56,8 @@ pub(crate) struct Ledger {
     /// ∫ F dt up to t_n − Δt/2, N s.
     impulse: f64,
     losses: DissipatedEnergies,
-    /// Energies that an earlier contact has left in the bodies, which are not counted.
+    /// Energies of the bodies at first touch: the residual stress of an earlier contact, and what it dissipated, which is not
+    /// counted again.
     inherited: EnergyLedger,
     /// Time of the last balance, s.
     last_time: f64,
@@ -134,7 +135,7 @@ impl Ledger {
         }
     }
 
-    /// Leaves out the energies that the bodies have in a state, from now on.
+    /// Takes the energies that the bodies have in a state for those at first touch.
     pub fn inherit(&mut self, model: &ExplicitBodies, state: &State) {
         self.inherited = energies_of_parts(model, state).energies;
     }
@@ -211,8 +212,12 @@ impl Ledger {
         });
         let motions = state.motions(model);
         let mut accounts = energies_of_parts(model, state);
+        let mut held_before = 0.0;
         for (account, energy) in self.inherited.entries() {
-            accounts.energies.add(account, -energy);
+            match account.side() {
+                BalanceSide::Held => held_before += energy,
+                _ => accounts.energies.add(account, -energy),
+            }
         }
         model.contact().add_energies(state.contact_history(model), &mut accounts);
         self.losses.advance(state.time - self.last_time, accounts.powers);
@@ -230,9 +235,9 @@ impl Ledger {
         let residual = match self.gained_by_rigid(model, contact.force * time_step) {
             Some((side, gained)) => {
                 let (other, kinetic) = (&bodies[1 - side], [&lower, &upper][1 - side].kinetic);
-                with_kinetic(kinetic + gained).residual(kinetic_before(other))
+                with_kinetic(kinetic + gained).residual(kinetic_before(other) + held_before)
             }
-            None => energies.residual(self.initial),
+            None => energies.residual(self.initial + held_before),
         };
         let drift = self.drift(model, lower.momentum + upper.momentum);
         self.last_balance =

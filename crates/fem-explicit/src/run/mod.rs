@@ -8,7 +8,6 @@
 //! sampled_history        what is derived from sampled instants
 //! material_stability     search for elements whose law has lost its stability
 //! stops                  reasons to stop
-//! unloaded               the bodies after a contact in which they flowed
 //! restart_state          all that a restart needs
 //! outcome                the collision that a run returns
 //! ```
@@ -22,7 +21,6 @@ mod restart_state;
 mod sampled_history;
 mod step;
 mod stops;
-mod unloaded;
 
 use std::ops::Deref;
 

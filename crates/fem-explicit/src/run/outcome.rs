@@ -1,7 +1,8 @@
 //! The collision that a run returns.
 
 use fem_collision::{
-    BodyResult, Collision, Ending, EnergyLedger, History, MAX_RESIDUAL, Stop, longest_at_pole,
+    BodyResult, Collision, Ending, EnergyLedger, History, MAX_RESIDUAL, Snapshot, SnapshotInstant,
+    Stop, longest_at_pole,
 };
 use fem_material::Material;
 use fem_material::engineering::show;
@@ -9,6 +10,7 @@ use fem_material::engineering::show;
 use super::restart_state::RunState;
 use crate::body::Body;
 use crate::model::ExplicitBodies;
+use crate::state::State;
 
 /// Returns the collision of a run with its ending.
 pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> Collision {
@@ -16,22 +18,21 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
     let mut bodies = body_results(model, &run, &ending, velocity_after);
     let warnings_of_run = run_warnings(model, &run, &ending);
     let RunState { mut state, log, ledger, sampled, history, recorder, probes, .. } = run;
-    let (last_valid, unloaded) = (run.last_valid, run.unloaded);
-    let unloaded = unloaded.filter(|_| ending == Ending::Parted).and_then(|unloaded| {
-        let (snapshot, locked_in) = unloaded.finish(model, &mut state, velocity_after?)?;
-        for (side, body) in
-            bodies.iter_mut().enumerate().filter(|(side, _)| model.bodies()[*side].flows())
-        {
-            body.locked_in = Some(locked_in[side]);
-        }
-        Some(snapshot)
-    });
+    let last_valid = run.last_valid;
+    let unloaded = velocity_after
+        .filter(|_| ending == Ending::Parted && model.bodies().iter().any(Body::flows))
+        .map(|velocity| unloaded(model, &mut state, velocity, &mut bodies));
     let (mut snapshots, mut warnings) = recorder.finish();
     if matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. })) {
         last_valid.put_among(&mut snapshots);
     }
     warnings.extend(warnings_of_run);
-    let peaks = sampled.pulse.peaks(log.peak_force, resolving_size(model));
+    let mut peaks = sampled.pulse.peaks(log.peak_force, resolving_size(model));
+    if model.bodies().iter().any(Body::flows)
+        && let Some(pressure) = sampled.pulse.steady_pressure(log.peak_force)
+    {
+        (peaks.pressure, peaks.pressure_radius) = (pressure, peaks.radius);
+    }
     let ends = log.first_contact.zip(log.last_contact);
     let frame = model.frame();
     let scale = frame.initial() / frame.energy_scale(log.max_approach);
@@ -115,12 +116,43 @@ fn body_results(
     })
 }
 
+/// Takes the bodies that flow to their equilibrium. Returns the snapshot of both bodies, whose mass centres move at these
+/// velocities (m/s), and enters the elastic energies that they hold into their results.
+fn unloaded(
+    model: &ExplicitBodies,
+    state: &mut State,
+    velocity: [f64; 2],
+    results: &mut [BodyResult; 2],
+) -> Snapshot {
+    let mut snapshot = Snapshot {
+        label: Some(SnapshotInstant::AfterSeparation),
+        time: state.time,
+        ..Snapshot::default()
+    };
+    let clock = state.clock(model);
+    for (side, body) in model.bodies().iter().enumerate().filter(|(_, body)| body.mesh().is_some())
+    {
+        let (own, fields) = (&mut state.bodies[side], &mut snapshot.bodies[side]);
+        body.settle(own, clock);
+        body.update_stress_fields(own, fields);
+        fields.velocity = vec![[0.0, velocity[side]]; body.n_nodes()];
+        if body.flows() {
+            results[side].locked_in =
+                Some(body.elastic_energy(&own.motion(body, clock), &own.history));
+        }
+    }
+    snapshot
+}
+
 /// Returns the warnings of material instability, of bodies that stay together, and of waves that came back.
 fn run_warnings(model: &ExplicitBodies, run: &RunState, ending: &Ending) -> Vec<String> {
     let is_of_stability = matches!(ending, Ending::Stopped(Stop::StabilityLost { .. }));
     let unstable = run.stability.warning().filter(|_| !is_of_stability);
     let is_together = matches!(ending, Ending::Together | Ending::AtRest);
-    let ends = run.log.first_contact.zip(run.log.last_contact).filter(|_| !is_together);
+    // Bodies that stay together may do so for as long as their own viscosity asks; a plate that moves on does not.
+    let is_plate = |body: &Body| body.mesh().is_some_and(|mesh| mesh.thickness().is_some());
+    let counts = !is_together || model.bodies().iter().any(is_plate);
+    let ends = run.log.first_contact.zip(run.log.last_contact).filter(|_| counts);
     let returned =
         ends.zip(model.waves_return()).filter(|((first, last), time)| last - first > *time);
     let waves = returned.map(|((first, last), time)| {

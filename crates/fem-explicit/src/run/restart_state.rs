@@ -1,13 +1,11 @@
 //! The restart state of a run: all that its continuation depends on apart from its model.
 
-use fem_collision::{Approach, Ending, Expectation, History, OutputRequest, Snapshot};
+use fem_collision::{Account, Approach, Ending, Expectation, History, OutputRequest, Snapshot};
 use serde::{Deserialize, Serialize};
 
 use super::contact_log::ContactLog;
 use super::material_stability::MaterialStability;
 use super::sampled_history::SampledHistory;
-use super::unloaded::UnloadedState;
-use crate::body::Body;
 use crate::energy::Ledger;
 use crate::model::{ExplicitBodies, fingerprint};
 use crate::snapshots::{LastValidState, Recorder, probes_fit};
@@ -28,8 +26,6 @@ pub struct RunState {
     /// Empty once the run has come to its end.
     pub(crate) last_valid: LastValidState,
     pub(crate) stability: MaterialStability,
-    /// Present if a body flows plastically.
-    pub(crate) unloaded: Option<UnloadedState>,
     /// Present once the run has ended.
     pub(crate) ending: Option<Ending>,
     /// Estimates by closed forms.
@@ -66,7 +62,6 @@ impl RunState {
             probes: Vec::new(),
             last_valid: LastValidState::new(request),
             stability: MaterialStability::default(),
-            unloaded: model.bodies().iter().any(Body::flows).then(UnloadedState::default),
             ending: None,
             expected,
             request: request.clone(),
@@ -77,9 +72,8 @@ impl RunState {
         }
     }
 
-    /// Returns the state at the first touch of bodies that meet again in the same place, with the dents, residual stresses
-    /// and internal variables that an ended run has left, without its vibration. They are where undented bodies
-    /// would touch, a depth of the dents apart.
+    /// Returns the state at the first touch of bodies that meet again in the same place, in equilibrium with the internal
+    /// variables that an ended run has left. They are where undented bodies would touch, a depth of the dents apart.
     pub(crate) fn again(
         model: &ExplicitBodies,
         expected: Expectation,
@@ -89,15 +83,15 @@ impl RunState {
         let mut run = Self::new(model, expected, request);
         let clock = run.state.clock(model);
         for (side, body) in model.bodies().iter().enumerate().filter(|(_, body)| body.flows()) {
-            let left = before.unloaded.as_ref().and_then(|unloaded| unloaded.displacement(side));
-            let (Some(left), state) = (left, &mut run.state.bodies[side]) else { continue };
-            let centre = body.centre(&left);
-            for (u, [radial, axial]) in state.displacement.iter_mut().zip(left) {
+            let (mut left, state) =
+                (before.state.bodies[side].clone(), &mut run.state.bodies[side]);
+            body.settle(&mut left, clock);
+            let centre = body.centre(&left.displacement);
+            for (u, [radial, axial]) in state.displacement.iter_mut().zip(left.displacement) {
                 *u = [radial, u[1] + (axial - centre)];
             }
             let n_fields = body.n_fields();
-            state.history[..n_fields]
-                .clone_from_slice(&before.state.bodies[side].history[..n_fields]);
+            state.history[..n_fields].clone_from_slice(&left.history[..n_fields]);
             // Its forces are those of the last step.
             state.advance_stress(body, clock);
         }
@@ -107,7 +101,8 @@ impl RunState {
 
     /// Returns whether the run has ended and left a body dented.
     pub fn is_dented(&self) -> bool {
-        self.unloaded.as_ref().is_some_and(|unloaded| unloaded.displacement(0).is_some())
+        let work = self.sampled.last.and_then(|row| row.energy(Account::PlasticWork));
+        self.ending == Some(Ending::Parted) && work.is_some_and(|work| work > 0.0)
     }
 
     /// Returns the approach for which the parts of the model were chosen; [`ExplicitBodies::approaching`] turns such a model
@@ -180,7 +175,5 @@ impl RunState {
             && probes_fit(&self.probes, &self.request, state.time)
             && self.last_valid.fits(model, state, &self.request)
             && self.stability.fits(model, state)
-            && self.unloaded.is_some() == model.bodies().iter().any(Body::flows)
-            && self.unloaded.as_ref().is_none_or(|unloaded| unloaded.fits(state))
     }
 }

@@ -99,8 +99,7 @@ fn sample(
 ) -> Result<(), Stop> {
     let kind = row_kind(contact, *instant);
     let is_landmark = kind != RowKind::Regular;
-    let RunState { state, log, ledger, sampled, history, probes, last_valid, .. } = run;
-    let (stability, unloaded) = (&mut run.stability, &mut run.unloaded);
+    let RunState { state, ledger, sampled, history, probes, last_valid, stability, .. } = run;
     let step = state.step;
     let mut history = history.as_mut().filter(|history| is_landmark || history.is_due(step));
     if is_landmark || sampled.is_due(step) {
@@ -108,9 +107,6 @@ fn sample(
         ledger.check(&row, step).map_err(|growth| stop_of_growth(model, growth, state))?;
         sampled.take(row, ledger.impulse(), step, instant.is_closed);
         probing.observe(probes, model, state, scratch, instant.approach);
-        if let Some(unloaded) = unloaded {
-            unloaded.observe(state, log, instant.is_closed);
-        }
         if ledger.adds_up() {
             last_valid.observe(model, state, scratch, instant.approach);
         }

@@ -194,15 +194,6 @@ impl FiniteStrainStress for PartlyFinite {
         self.near.n_elements()
     }
 
-    fn add_energies_at_finite_strain(
-        &self,
-        motion: &Motion<'_>,
-        history: &[NodalField],
-        accounts: &mut Accounts,
-    ) {
-        self.near.add_energies_at_finite_strain(motion, self.split(history).0, accounts);
-    }
-
     /// Adds the bound of the elements at finite strain only, as does the next method: callers use its growth.
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
         self.near.add_undeformed_stiffness_bound(bound);

@@ -112,14 +112,6 @@ pub(crate) trait FiniteStrainStress: Stress {
     /// Returns the number of elements at finite strain.
     fn n_elements(&self) -> usize;
 
-    /// Adds the energies of the elements at finite strain only.
-    fn add_energies_at_finite_strain(
-        &self,
-        motion: &Motion<'_>,
-        history: &[NodalField],
-        accounts: &mut Accounts,
-    );
-
     /// Adds a bound of the stiffness at each node (N/m) of the undeformed body.
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]);
 

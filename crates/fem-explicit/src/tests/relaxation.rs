@@ -84,7 +84,7 @@ fn a_held_strain_relaxes_as_the_prony_series() {
             effective: state.bodies[1].history[body.effective().unwrap()].clone(),
             ..BodyFields::default()
         };
-        let stress = body.stress(&fields);
+        let stress = body.stress(&fields, None);
         for found in stress.cells.iter().chain(&stress.points) {
             for (found, exact) in found.iter().zip(exact) {
                 // Rounding of strains of 0.02 by unit moduli.

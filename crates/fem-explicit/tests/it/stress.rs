@@ -35,7 +35,7 @@ fn model(n: f64) -> ExplicitBodies {
 fn stress_of(body: &Body, displacement: impl Fn([f64; 2]) -> [f64; 2]) -> StressField {
     let displacement = body.mesh().unwrap().nodes().iter().map(|&p| displacement(p)).collect();
     let fields = BodyFields { displacement, ..BodyFields::default() };
-    body.stress(&fields)
+    body.stress(&fields, None)
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn uniform_strain_gives_uniform_stress() {
             assert!((found - exact).abs() < 1e-12, "{found:?} {exact:?}");
         }
     }
-    assert_eq!(model.bodies()[0].stress(&BodyFields::default()), StressField::default());
+    assert_eq!(model.bodies()[0].stress(&BodyFields::default(), None), StressField::default());
 }
 
 /// A smooth displacement whose stress is quadratic: u_r = r(0.3y + 0.2y² + 0.5r²),

@@ -23,7 +23,7 @@
 //! | [`luding`] | F = k₁δ, rebound stiffer with δ_m, up to δ\*; beyond all of it elastic with k_p | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
 //! | [`mdr`] | Hertz' mean pressure up to p_Y(δ), then F = πa²p_Y | the module `mdr` |
 //!
-//! Jackson and Green's fit, with ω = δ, C = 1.295 exp(0.736 ν) and the yield strength S of the weaker body:
+//! Jackson and Green's fit with the later hardness of Ghaednia et al. (2019, eq. 28), with ω = δ, C = 1.295 exp(0.736 ν) and the yield strength S of the weaker body:
 //!
 //! ```math
 //! \omega_c = R^*\Bigl(\frac{\pi CS}{2E^*}\Bigr)^2, \quad
@@ -41,7 +41,7 @@
 
 use std::f64::consts::PI;
 
-use fem_material::Material;
+use fem_material::{FlowRule, FlowStress, Material};
 
 use super::mdr::Mdr;
 use super::mean_pressure::MeanPressure;
@@ -56,6 +56,8 @@ use crate::plastic_yield::{FirstYield, YieldingBody, largest_von_mises};
 
 /// Dynamic hardness over yield strength.
 const HARDNESS: f64 = 3.0;
+/// Ratio of moduli from which the stiffer body, if no strength is known, is expected to yield after its partner.
+const FAR_STIFFER: f64 = 2.0;
 /// Interference over the critical one at which Jackson and Green's fit begins.
 const FIT_BEGINS: f64 = 1.9;
 /// Ratio of the ends of a panel of a quadrature.
@@ -272,7 +274,8 @@ pub fn johnson(pair: &Pair, hardness: f64) -> Result<ContactLaw, LawError> {
 
 /// Returns Jackson and Green's law of a pair, and yield strength (Pa) and Poisson's ratio of the body that flows.
 ///
-/// Jackson & Green (2005), *J. Tribol.* 127, 343, with the rebound of Etsion et al. (2005).
+/// Force and radius of Jackson & Green (2005), *J. Tribol.* 127, 343; the hardness, a cosine of the contact radius, of Ghaednia, Brake,
+/// Berryhill & Jackson (2019), *J. Tribol.*, eq. 28; the rebound of Etsion et al. (2005).
 ///
 /// # Errors
 /// A strength that is not positive and finite, a ratio outside (−1, 0.5].
@@ -311,26 +314,31 @@ fn fitted_sphere(
     dented(pair, (hertz_stiffness(pair), 1.5), formula)
 }
 
-/// Returns the mean-pressure law of a pair, and yield strength (Pa), Poisson's ratio and linear hardening (Pa) of the body that
-/// flows, with its share in the flattening of a wide contact, 1 for a ball on a flat and 1/2 for like balls that both flow, and
-/// the share of an elastic partner in the compliance 1/E\*, 0 for a rigid one or if both flow.
+/// Returns the mean-pressure law of a pair, and flow stress (Pa) and Poisson's ratio of the body that flows, with its share in the
+/// flattening of a wide contact, 1 for a ball on a flat and 1/2 for like balls that both flow, and the share of an elastic partner
+/// in the compliance 1/E\*, 0 for a rigid one or if both flow.
 ///
 /// A fit to explicit finite elements of this program: the module `mean_pressure` has its equations.
 ///
 /// # Errors
-/// A strength that is not positive and finite, a ratio outside (−1, 0.5], a hardening or a share that is negative or not finite.
+/// A strength that is not positive and finite, a ratio outside (−1, 0.5], a slope, an exponent or a share that is negative or not finite.
 pub fn mean_pressure(
     pair: &Pair,
-    [yield_strength, poissons_ratio, hardening, flattening_share, elastic_share]: [f64; 5],
+    flow: FlowStress,
+    poissons_ratio: f64,
+    [flattening_share, elastic_share]: [f64; 2],
 ) -> Result<ContactLaw, LawError> {
-    let yield_strength = positive("yield_strength", yield_strength)?;
-    let (radius, modulus) = (pair.effective_radius(), pair.contact_modulus());
+    let flow = FlowStress {
+        yield_strength: positive("yield_strength", flow.yield_strength)?,
+        modulus: not_negative("hardening", flow.modulus)?,
+        strain: positive("hardening_strain", flow.strain)?,
+        exponent: not_negative("hardening_exponent", flow.exponent)?,
+    };
     let law = MeanPressure {
-        radius,
-        modulus,
-        strength: yield_strength,
+        radius: pair.effective_radius(),
+        modulus: pair.contact_modulus(),
+        flow,
         constraint: largest_von_mises(checked_ratio(poissons_ratio)?).recip(),
-        hardening: not_negative("hardening", hardening)?,
         flattening_share: not_negative("flattening_share", flattening_share)?,
         elastic_share: not_negative("elastic_share", elastic_share)?,
     };
@@ -413,7 +421,7 @@ fn dented(
 pub fn thornton_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let pressure = match law.get("yield_pressure") {
         Some(pressure) => pressure,
-        None => earliest(law, context)?.1.pressure,
+        None => first_yield_of(law, context)?.1.pressure,
     };
     Ok((vec![pressure], context.pair))
 }
@@ -425,7 +433,7 @@ pub fn thornton_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
 pub fn johnson_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let hardness = match law.get("hardness") {
         Some(hardness) => hardness,
-        None => HARDNESS * earliest(law, context)?.1.body().yield_strength,
+        None => HARDNESS * first_yield_of(law, context)?.1.body().yield_strength,
     };
     Ok((vec![hardness], context.pair))
 }
@@ -435,30 +443,27 @@ pub fn johnson_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
 /// # Errors
 /// Those of [`thornton_values`].
 pub fn jackson_green_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
-    let YieldingBody { yield_strength, poissons_ratio, .. } = earliest(law, context)?.1.body();
+    let YieldingBody { yield_strength, poissons_ratio, .. } =
+        first_yield_of(law, context)?.1.body();
     Ok((vec![yield_strength, law.get("nu").unwrap_or(poissons_ratio)], context.pair))
 }
 
-/// Returns yield strength, Poisson's ratio, hardening and shares as given, or those of the body that yields
-/// first. Those of a flow rule are at the representative strain of the contact and its rate.
+/// Returns yield strength, Poisson's ratio, hardening and shares as given, or those of the body that yields first. Those of a
+/// flow rule are at the rate of the contact.
 ///
 /// # Errors
 /// Those of [`thornton_values`].
 pub fn mean_pressure_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
-    let (index, first) = earliest(law, context)?;
-    let rule = context.materials[index].and_then(Material::flow);
-    let rule = rule.filter(|_| law.get("yield_strength").is_none());
-    let (first, slope, _) = match rule {
-        Some(rule) => first.hardened(|strain, rate| rule.flow_stress(strain, rate)),
-        None => (first, 0.0, 0.0),
-    };
-    let YieldingBody { yield_strength, poissons_ratio, .. } = first.body();
+    let first = flow_of(law, context)?;
+    let FlowStress { yield_strength, modulus, strain, exponent } = first.flow_stress();
     let parameters = vec![
         yield_strength,
-        law.get("nu").unwrap_or(poissons_ratio),
-        law.get("hardening").unwrap_or(slope),
-        law.get("flattening_share").unwrap_or(first.flattening_share),
-        law.get("elastic_share").unwrap_or(first.elastic_share),
+        first.body().poissons_ratio,
+        modulus,
+        strain,
+        exponent,
+        first.flattening_share,
+        first.elastic_share,
     ];
     Ok((parameters, context.pair))
 }
@@ -475,23 +480,70 @@ pub fn mdr_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     Ok((parameters, pair))
 }
 
-/// Returns index and first yield of the body that yields first. A strength that the law gives is that of both bodies.
-fn earliest(
+/// Returns the first yield of the body that yields, with the flow stress that the law and that body's material give: the impact of
+/// elements that stand behind a law that dents.
+///
+/// # Errors
+/// Those of [`thornton_values`].
+pub fn flow_of(law: &LawInput, context: &LawContext<'_>) -> Result<FirstYield, LawInputError> {
+    let (index, first) = first_yield_of(law, context)?;
+    let rule = context.materials[index].and_then(Material::flow);
+    let given = given_strength(law, first.body().poissons_ratio);
+    let of_rule = |rule: &FlowRule, strain: f64, rate: f64| {
+        let flow = rule.closed_form(strain, rate);
+        given.map_or(flow, |strength| flow.with_yield_strength(strength))
+    };
+    let hardened = rule.map(|rule| first.hardened(|strain, rate| of_rule(rule, strain, rate)).0);
+    let first = hardened.unwrap_or(first);
+    let flow = first.flow_stress();
+    let flow = FlowStress {
+        modulus: law.get("hardening").unwrap_or(flow.modulus),
+        strain: law.get("hardening_strain").unwrap_or(flow.strain),
+        exponent: law.get("hardening_exponent").unwrap_or(flow.exponent),
+        ..flow
+    };
+    let poissons_ratio = law.get("nu").unwrap_or(first.body().poissons_ratio);
+    let mut first = first.of_flow(flow, poissons_ratio);
+    first.flattening_share = law.get("flattening_share").unwrap_or(first.flattening_share);
+    first.elastic_share = law.get("elastic_share").unwrap_or(first.elastic_share);
+    Ok(first)
+}
+
+/// Returns index and first yield of the body that yields first. A strength that the law gives is that of the body that yields by
+/// the strengths of the materials. Where neither has one it is that of both, without a body far stiffer than its partner.
+fn first_yield_of(
     law: &LawInput,
     context: &LawContext<'_>,
 ) -> Result<(usize, FirstYield), LawInputError> {
-    let given = law.get("yield_strength");
+    let hertz = HertzImpact::new(&context.pair, context.approach_speed)?;
+    let own = context.yield_strengths;
+    let moduli = context.materials.map(|material| material.map(|it| *it.instantaneous()));
     let body = |k: usize| {
+        let modulus = moduli[k]?.plane_strain_modulus();
+        let partner = moduli[1 - k].map_or(f64::INFINITY, |other| other.plane_strain_modulus());
+        let is_soft = modulus < FAR_STIFFER * partner;
+        let poissons_ratio = moduli[k]?.poissons_ratio();
+        let given = given_strength(law, poissons_ratio).filter(|_| own == [None; 2] && is_soft);
         Some(YieldingBody {
-            yield_strength: given.or(context.yield_strengths[k])?,
-            poissons_ratio: context.materials[k]?.instantaneous().poissons_ratio(),
-            plane_strain_modulus: context.materials[k]?.instantaneous().plane_strain_modulus(),
+            yield_strength: own[k].or(given)?,
+            poissons_ratio,
+            plane_strain_modulus: modulus,
             radius: context.radii[k],
         })
     };
-    let hertz = HertzImpact::new(&context.pair, context.approach_speed)?;
-    FirstYield::earliest(&hertz, [body(0), body(1)]).ok_or(LawInputError::Materials {
+    let found = FirstYield::earliest(&hertz, [body(0), body(1)]);
+    let (index, first) = found.ok_or(LawInputError::Materials {
         message: "a law that dents needs a yield strength",
         help: "set material.NAME.yield_strength, or yield_strength in the law",
-    })
+    })?;
+    let given = given_strength(law, first.body().poissons_ratio);
+    Ok((index, given.map_or(first, |strength| first.of_strength(strength))))
+}
+
+/// Returns the yield strength (Pa) that a law gives a body of a Poisson's ratio, by whichever of its keys.
+fn given_strength(law: &LawInput, poissons_ratio: f64) -> Option<f64> {
+    let of_hardness = || law.get("hardness").map(|hardness| hardness / HARDNESS);
+    let of_pressure =
+        || law.get("yield_pressure").map(|pressure| pressure * largest_von_mises(poissons_ratio));
+    law.get("yield_strength").or_else(of_hardness).or_else(of_pressure)
 }

@@ -13,8 +13,9 @@ mod tsuji;
 
 pub(crate) use elastic_plastic::Rebound;
 pub use elastic_plastic::{
-    ElasticPlastic, brake, jackson_green, jackson_green_values, johnson, johnson_values, luding,
-    mdr, mdr_values, mean_pressure, mean_pressure_values, thornton, thornton_values, walton_braun,
+    ElasticPlastic, brake, flow_of, jackson_green, jackson_green_values, johnson, johnson_values,
+    luding, mdr, mdr_values, mean_pressure, mean_pressure_values, thornton, thornton_values,
+    walton_braun,
 };
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
@@ -239,12 +240,29 @@ macro_rules! contact_laws {
             /// A fit to finite elements of an elastic–plastic sphere: the best of the laws that dent.
             MeanPressure, mean_pressure, MeanPressureTable,
                 "a table such as { yield_strength = \"1 GPa\" }";
-            formula(pair, [yield_strength, nu, hardening, flattening_share, elastic_share]) =
-                laws::mean_pressure(pair, [yield_strength, nu, hardening, flattening_share, elastic_share]);
+            formula(
+                pair,
+                [
+                    yield_strength,
+                    nu,
+                    modulus,
+                    strain,
+                    exponent,
+                    flattening_share,
+                    elastic_share
+                ]
+            ) = laws::mean_pressure(
+                pair,
+                FlowStress { yield_strength, modulus, strain, exponent },
+                nu,
+                [flattening_share, elastic_share]
+            );
             given by [
                 yield_strength: KeyNeed::Optional,
                 nu: KeyNeed::Optional,
                 hardening: KeyNeed::Optional,
+                hardening_strain: KeyNeed::Optional,
+                hardening_exponent: KeyNeed::Optional,
                 flattening_share: KeyNeed::Optional,
                 elastic_share: KeyNeed::Optional
             ], values laws::mean_pressure_values;
@@ -254,9 +272,12 @@ macro_rules! contact_laws {
                 yield_strength: Stress, Positive, Role::STRENGTH;
                 /// Poisson's ratio of the body that flows; absent: the material's.
                 nu: Number, LikePoissonsRatio, Role::number(Some(0.3), (0.0, 0.5));
-                /// Slope of the flow stress over the plastic strain, ≥ 0; absent: that of the material's flow rule, up to the strain
-                /// of the contact.
+                /// Slope of the flow stress over the plastic strain, ≥ 0; absent: that of a linear flow rule of the material.
                 hardening: Stress, NotNegative, Role::HARDENING;
+                /// Reference strain of Swift's law, > 0; absent: that of the material's flow rule near the strain of the contact.
+                hardening_strain: Number, Positive, Role::number(Some(1.0), (1e-12, 1e12));
+                /// Exponent of Swift's law, ≥ 0; absent: that of the material's flow rule near the strain of the contact.
+                hardening_exponent: Number, NotNegative, Role::number(Some(0.0), (0.0, 1.0));
                 /// Share of the bodies that flow in the flattening of a wide contact: 1 for a ball on a flat, 1/2 for like balls that both flow,
                 /// 3/4 if one of them does; absent: the case's.
                 flattening_share: Number, NotNegative, Role::number(Some(1.0), (0.0, 1.0));

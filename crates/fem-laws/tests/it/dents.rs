@@ -6,9 +6,10 @@ use fem_laws::laws::{
     ContactLaw, brake, jackson_green, johnson, luding, mdr, mean_pressure, thornton, walton_braun,
 };
 use fem_laws::{
-    FirstYield, HertzImpact, Impact, LawImpact, Pair, Partner, YieldingBody,
-    contact_time_coefficient, largest_von_mises,
+    EndRule, FirstYield, HertzImpact, Impact, LawContext, LawFamily, LawImpact, LawInput, Pair,
+    PairRelaxation, Partner, YieldingBody, contact_time_coefficient, largest_von_mises,
 };
+use fem_material::{ElasticModuli, FlowRule, FlowStress, Hardening, Material, RateFactor};
 
 const STRENGTH: f64 = 235e6;
 const NU: f64 = 0.3;
@@ -197,7 +198,12 @@ fn all_laws() -> [ContactLaw; 8] {
         walton_braun(&pair, 0.7, 1e7),
         luding(&pair, 5.0, 1e6, 0.05),
         mdr(&pair, STRENGTH, NU, 1.0),
-        mean_pressure(&pair, [STRENGTH, NU, 0.05 * 210e9, 0.5, 0.3]),
+        mean_pressure(
+            &pair,
+            FlowStress { modulus: 0.05 * 210e9, ..FlowStress::perfect(STRENGTH) },
+            NU,
+            [0.5, 0.3],
+        ),
         brake(&pair, STRENGTH, NU),
     ]
     .map(Result::unwrap)
@@ -216,8 +222,9 @@ fn energy_and_momentum_are_kept_at_every_instant() {
             let mut impulse = 0.0;
             for (now, next) in found.history.iter().zip(&found.history[1..]) {
                 let kinetic = 0.5 * mass * now.approach_rate.powi(2);
+                // The slope of the mean-pressure law changes where the contact is fully plastic.
                 assert!(
-                    (kinetic + now.work - energy).abs() < 1e-9 * energy,
+                    (kinetic + now.work - energy).abs() < 3e-8 * energy,
                     "{law:?} {speed} {now:?}"
                 );
                 let dissipated = now.dissipated.unwrap();
@@ -243,7 +250,7 @@ fn restitution_falls_with_speed_from_one() {
         brake(&pair, 1e11, NU),
         walton_braun(&pair, 1.0, 1e7),
         luding(&pair, 1.0, 1e6, 0.05),
-        mean_pressure(&pair, [1e12, NU, 0.0, 0.5, 0.0]),
+        mean_pressure(&pair, FlowStress::perfect(1e12), NU, [0.5, 0.0]),
     ];
     for law in hard {
         assert_close(impact(law.unwrap(), 0.1).restitution, 1.0, 1e-8);
@@ -277,11 +284,18 @@ fn values_out_of_range_are_rejected() {
     let pair = pair();
     assert!(thornton(&pair, 0.0).is_err() && johnson(&pair, f64::NAN).is_err());
     assert!(jackson_green(&pair, 1e9, 0.6).is_err() && walton_braun(&pair, 1.1, 1e6).is_err());
-    let good = [1e9, NU, 0.0, 1.0, 0.0];
-    for (k, value) in [(0, 0.0), (1, 0.6), (2, -1.0), (3, f64::NAN), (4, -0.1)] {
-        let mut bad = good;
-        bad[k] = value;
-        assert!(mean_pressure(&pair, bad).is_err(), "{bad:?}");
+    let good = FlowStress::perfect(1e9);
+    let negative = FlowStress { modulus: -1.0, ..good };
+    for (flow, nu, shares) in [
+        (FlowStress::perfect(0.0), NU, [1.0, 0.0]),
+        (good, 0.6, [1.0, 0.0]),
+        (negative, NU, [1.0, 0.0]),
+        (FlowStress { strain: 0.0, ..good }, NU, [1.0, 0.0]),
+        (FlowStress { exponent: -0.1, ..good }, NU, [1.0, 0.0]),
+        (good, NU, [f64::NAN, 0.0]),
+        (good, NU, [1.0, -0.1]),
+    ] {
+        assert!(mean_pressure(&pair, flow, nu, shares).is_err(), "{flow:?} {nu} {shares:?}");
     }
     assert!(luding(&pair, 0.9, 1e6, 0.05).is_err() && luding(&pair, 2.0, 1e6, 0.0).is_err());
     for law in all_laws() {
@@ -324,5 +338,89 @@ fn mdr_has_the_restitutions_of_lammps() {
         // Nothing is lost before first yield.
         let slow = LawImpact::new(&pair, mdr(&pair, 1e9, NU, ratio).unwrap()).impact(0.1).unwrap();
         assert_close(slow.restitution, 1.0, 1e-9);
+    }
+}
+
+/// A strength that a law is given belongs to the body that yields, with that body's ratio, radius and hardening: a ball of alumina
+/// on a block of aluminium, in either order, and whether or not the case has a strength of the aluminium.
+#[test]
+fn a_given_strength_is_that_of_the_body_that_yields() {
+    let moduli = |modulus, nu| ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, nu);
+    let hard = Material::new(3900.0, moduli(380e9, 0.22).unwrap(), None).unwrap();
+    let soft = Material::new(2700.0, moduli(70e9, 0.33).unwrap(), None).unwrap();
+    let linear = Hardening::Linear { yield_strength: 300e6, modulus: 800e6 };
+    let flowing = soft.clone().with_flow(FlowRule::new(linear, None).unwrap()).unwrap();
+    let given = |family| LawInput { family, values: vec![("yield_strength", 286e6)] };
+    for (metal, own, slope) in
+        [(&soft, Some(300e6), 0.0), (&soft, None, 0.0), (&flowing, Some(300e6), 800e6)]
+    {
+        let block = Partner::HalfSpace {
+            plane_strain_modulus: metal.instantaneous().plane_strain_modulus(),
+        };
+        let pair = Pair::new(block, Partner::solid_sphere(5e-3, &hard)).unwrap();
+        let relaxation = PairRelaxation::new(Some(metal), Some(&hard)).unwrap();
+        let nu_of_metal = metal.instantaneous().poissons_ratio();
+        for swapped in [false, true] {
+            let context = LawContext {
+                pair,
+                approach_speed: 2.0,
+                materials: if swapped {
+                    [Some(&hard), Some(metal)]
+                } else {
+                    [Some(metal), Some(&hard)]
+                },
+                yield_strengths: if swapped { [None, own] } else { [own, None] },
+                radii: if swapped { [2.5e-3, f64::INFINITY] } else { [f64::INFINITY, 2.5e-3] },
+                relaxation: &relaxation,
+                end_rule: EndRule::ZeroForce,
+            };
+            let of = |family| given(family).parameters(&context).unwrap().0;
+            for family in [LawFamily::JacksonGreen, LawFamily::Brake, LawFamily::Mdr] {
+                assert_eq!(of(family)[..2], [286e6, nu_of_metal], "{family:?}");
+            }
+            let [strength, nu, hardening, .., exponent, flattening, elastic] =
+                of(LawFamily::MeanPressure)[..]
+            else {
+                panic!("seven parameters")
+            };
+            // The flat has no share of the curvature, and the ball this one of the compliance.
+            let share = 1.0 - pair.contact_modulus() / metal.instantaneous().plane_strain_modulus();
+            assert_eq!(
+                [strength, nu, hardening, exponent, flattening],
+                [286e6, nu_of_metal, slope, 0.0, 0.5]
+            );
+            assert_close(elastic, share, 1e-12);
+        }
+    }
+}
+
+/// A flow stress that grows with the rate raises restitution and force as in explicit elements of this program: a ball of 10 mm with
+/// Y = 1 GPa and C = 0.02 on a wall at 1 m/s. They rise less than a strength at the mean rate would make them, which is 0.034.
+#[test]
+fn the_rate_before_the_turn_counts() {
+    let mass = fem_laws::sphere_mass(10e-3, 7850.0);
+    let ball = Partner::Sphere { radius: 5e-3, mass, plane_strain_modulus: 210e9 / 0.91 };
+    let hertz = HertzImpact::new(&Pair::new(ball, Partner::Wall).unwrap(), 1.0).unwrap();
+    let body = YieldingBody {
+        yield_strength: 1e9,
+        poissons_ratio: NU,
+        plane_strain_modulus: 210e9 / 0.91,
+        radius: 5e-3,
+    };
+    let first = FirstYield::new(&hertz, body);
+    let of = |reference_rate: f64| {
+        let linear = Hardening::Linear { yield_strength: 1e9, modulus: 0.0 };
+        let rate = RateFactor { coefficient: 0.02, reference_rate };
+        let rule = FlowRule::new(linear, Some(rate)).unwrap();
+        first.hardened(|strain, rate| rule.closed_form(strain, rate)).0.impact()
+    };
+    let plain = first.impact();
+    for (reference_rate, elements) in
+        [(1.0, [0.7314 - 0.7145, 500.0 / 493.2]), (1e-4, [0.7744 - 0.7145, 516.8 / 493.2])]
+    {
+        let found = of(reference_rate);
+        let rise = found.restitution - plain.restitution;
+        assert!((rise - elements[0]).abs() < 0.004, "{rise} {elements:?}");
+        assert_close(found.peak_force / plain.peak_force, elements[1], 0.005);
     }
 }

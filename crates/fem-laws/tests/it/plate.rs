@@ -2,11 +2,11 @@
 
 use fem_laws::laws::{hertz, linear, mean_pressure, thornton};
 use fem_laws::{
-    FiniteSize, HertzImpact, Impact, ImpactPath, LawError, LawImpact, Pair, PairRelaxation,
-    Partner, Ting, plate_lambda, plate_mobility, plate_thickness_error, plate_thickness_factor,
-    plate_wave_travel,
+    FiniteSize, FirstYield, FreePlate, HertzImpact, Impact, ImpactPath, LawError, LawImpact, Pair,
+    PairRelaxation, Partner, Ting, YieldingBody, largest_von_mises, plate_lambda, plate_mobility,
+    plate_thickness_error, plate_thickness_factor, plate_wave_travel,
 };
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, ElasticModuli, FlowStress, Material, PronySeries, PronyTerm};
 
 use crate::common::assert_close;
 
@@ -88,11 +88,30 @@ fn elastic_models_on_a_plate_equal_zeners_equation() {
                 assert!(error < 5e-6, "{name} {lambda} {k}: {} {}", found[k], expected[k]);
             }
         }
-        if lambda < 0.2 {
-            // The approximation is good to a few thousandths there.
-            assert!((expected[0] - (-1.719 * lambda).exp()).abs() < 4e-3, "{expected:?}");
-        }
     }
+}
+
+/// The rate of the loss at small λ is ∫ u³ dt of Hertz' motion u̇² = 1 − ⅘ u^(5/2): ⅘ (5/4)^(8/5) B(8/5, ½), here by the midpoint
+/// rule over u = u_m (1 − x²), which removes the root at the turning point.
+#[test]
+fn a_stiff_plate_takes_the_share_of_a_weak_dashpot() {
+    let largest = 1.25_f64.powf(0.4);
+    let n = 20_000;
+    let of_cell = |k: i32| {
+        let x = (f64::from(k) + 0.5) / f64::from(n);
+        let u = largest * (1.0 - x * x);
+        let speed = (1.0 - 0.8 * u.powf(2.5)).sqrt();
+        2.0 * u.powi(3) / speed * 2.0 * largest * x / f64::from(n)
+    };
+    let limit: f64 = (0..n).map(of_cell).sum();
+    assert_close(limit, 1.7301, 1e-4);
+    let rate = |lambda: f64| {
+        let ting = Ting::new(&pair(), elastic()).with_plate(mobility(lambda)).unwrap();
+        -ting.impact(SPEED).unwrap().restitution.ln() / lambda
+    };
+    // Linear in λ; five digits of e leave 2e-4 of the rate at 0.05.
+    let found = 2.0 * rate(0.05) - rate(0.1);
+    assert_close(found, limit, 2e-3);
 }
 
 /// A plate that takes all, such as a foil, ends every model at once: the ball has no restitution, gives the plate all of its
@@ -180,7 +199,8 @@ fn the_energy_is_accounted_for() {
             ("linear", law(linear(1e7, 50.0).unwrap()).impact(SPEED), rough),
             (
                 "dent",
-                law(mean_pressure(&pair(), [1e9, 0.3, 0.0, 1.0, 0.5]).unwrap()).impact(SPEED),
+                law(mean_pressure(&pair(), FlowStress::perfect(1e9), 0.3, [1.0, 0.5]).unwrap())
+                    .impact(SPEED),
                 rough,
             ),
         ] {
@@ -326,4 +346,74 @@ fn map_material(name: &str) -> Material {
     };
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, ratio).unwrap();
     Material::new(density, moduli, None).unwrap()
+}
+
+/// A ball of 12 mm of steel with Y = 235 MPa on a plate of the same at 3 m/s.
+fn yielding(speed: f64, thickness: f64) -> FirstYield {
+    let pair =
+        Pair::new(Partner::solid_sphere(12e-3, &steel()), Partner::half_space(&steel())).unwrap();
+    let body = |radius: f64| YieldingBody {
+        yield_strength: 235e6,
+        poissons_ratio: 0.3,
+        plane_strain_modulus: steel().instantaneous().plane_strain_modulus(),
+        radius,
+    };
+    let hertz = HertzImpact::new(&pair, speed).unwrap();
+    let bodies = [Some(body(6e-3)), Some(body(f64::INFINITY))];
+    let plate = FreePlate { material: steel(), thickness, diameter: f64::INFINITY };
+    FirstYield::earliest(&hertz, bodies).unwrap().1.with_plate(&plate).unwrap()
+}
+
+/// Restitution, contact time and peak force by explicit elements of this program with a tolerance of 1 %. They differ from the law
+/// by its errors, which cover the thickness that it leaves out, and by the bars of the elements.
+#[test]
+fn a_dented_plate_gives_the_impacts_of_elements() {
+    for (thickness, elements, bars) in [
+        (3e-3, [0.0666, 46.75e-6, 950.5], [0.004, 2e-7, 8.0]),
+        (5e-3, [0.2231, 38.61e-6, 1176.6], [0.004, 2e-7, 20.0]),
+        (10e-3, [0.3337, 37.44e-6, 1289.9], [0.005, 3e-7, 10.0]),
+        (20e-3, [0.3693, 37.34e-6, 1320.3], [0.006, 3e-7, 10.0]),
+    ] {
+        let first = yielding(3.0, thickness);
+        let impact = first.impact();
+        let errors = first.errors(&impact);
+        for (k, value) in impact.in_order().into_iter().take(3).enumerate() {
+            let difference = (value - elements[k]).abs();
+            assert!(
+                difference < errors[k] * value + bars[k],
+                "{thickness} {k}: {value} {}",
+                elements[k]
+            );
+            // The bars are no help if they are far larger.
+            assert!(errors[k] < 0.14, "{thickness} {k}: {}", errors[k]);
+        }
+    }
+    // No wave returns from 10 cm: a half-space.
+    let [thick, block] = [0.1, 1.0].map(|thickness| yielding(3.0, thickness).impact());
+    assert_eq!(thick, block);
+    assert_close(block.restitution, 0.373, 0.01);
+}
+
+/// A thin plate gives way, so that the ball yields at a higher speed, from which on Hertz' spring on the plate reaches the pressure of
+/// first yield.
+#[test]
+fn a_thin_plate_delays_first_yield() {
+    let mut last = yielding(1.0, 1.0).speed;
+    for thickness in [1e-3, 0.3e-3, 0.1e-3] {
+        let first = yielding(1.0, thickness);
+        assert!(first.speed > last, "{thickness}: {} {last}", first.speed);
+        last = first.speed;
+        let mobility = plate_mobility(&steel(), thickness);
+        let pair = Pair::new(Partner::solid_sphere(12e-3, &steel()), Partner::half_space(&steel()));
+        let pair = pair.unwrap();
+        let model = LawImpact::new(&pair, hertz(&pair).unwrap()).with_plate(mobility).unwrap();
+        let radius = model.impact(last).unwrap().max_contact_radius;
+        let modulus = pair.contact_modulus() / pair.effective_radius();
+        let pressure = 2.0 / std::f64::consts::PI * modulus * radius;
+        assert_close(pressure * largest_von_mises(0.3), 235e6, 1e-3);
+        let at = |times: f64| yielding(times * last, thickness);
+        assert!(at(0.99).ratio() < 1.0 && at(1.01).ratio() > 1.0);
+        // It falls with speed by itself on so thin a plate.
+        assert_close(at(0.99).impact().restitution, at(1.01).impact().restitution, 0.04);
+    }
 }

@@ -1,5 +1,5 @@
 // The picture of the bodies: instant, zoom and playback.
-import { show } from './units.js';
+import { percent, show } from './units.js';
 import { lastOnly } from './runner.js';
 import { at, draw } from './results.js';
 
@@ -56,7 +56,9 @@ function showInstant(picture, frame) {
   at('bands').textContent = `[data-theme="dark"] { ${picture.dark_rules} }`;
   const [low, high] = picture.range_pa;
   const isPart = drawnOutcome.summary.bodies.some((body) => !body.elements);
-  const words = `${show(frame.time_s, 's', 3)} after first touch: force ${show(frame.contact_force_n, 'N', 3)}, approach ${show(frame.approach_m, 'm', 3)}; stress from ${show(low, 'Pa', 3)} to ${show(high, 'Pa', 3)}, compression negative.${isPart ? ' The rigid partner is not drawn.' : ''}`;
+  const error = drawnOutcome.summary.stress_error;
+  const known = error ? ` (± ${percent(error.l2)} rms, at most ± ${percent(error.max)} of the largest)` : '';
+  const words = `${show(frame.time_s, 's', 3)} after first touch: force ${show(frame.contact_force_n, 'N', 3)}, approach ${show(frame.approach_m, 'm', 3)}; stress from ${show(low, 'Pa', 3)} to ${show(high, 'Pa', 3)}${known}, compression negative.${isPart ? ' The rigid partner is not drawn.' : ''}`;
   draw(at('picture-svg'), picture.svg, `Section through both bodies at the contact, ${words}`);
   draw(at('picture-bar'), picture.bar, 'Colours of the stress, from compression to tension.');
   at('picture-caption').textContent = words;

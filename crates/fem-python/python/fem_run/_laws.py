@@ -74,7 +74,7 @@ class Fit(dict[str, Any]):
 
     def _values(self) -> dict[str, str]:
         return {
-            one["key"]: quantity(one["value"], one["standard_error"] or 0.0, True, one["unit"] or "")
+            one["key"]: quantity(one["value"], one["standard_error"] or 0.0, None, one["unit"] or "")
             for one in self["parameters"]
         }
 
@@ -155,6 +155,7 @@ def fit(
     compare: Law | Sequence[Law] | None = None,
     contact_time: bool = False,
     robust: bool = False,
+    as_elastic: bool = False,
     confidence: float | None = None,
     columns: Columns | None = None,
 ) -> Fit:
@@ -172,6 +173,7 @@ def fit(
         compare: laws that are fitted too.
         contact_time: whether the column ``contact_time_s`` is fitted too.
         robust: whether points far from the curve count little; their weights are in ``fit["measured"]["weight"]``.
+        as_elastic: whether restitutions that are upper bounds are taken as they are.
         confidence: level of the intervals, 0.95 by default.
         columns: names of the columns by their meaning.
 
@@ -222,6 +224,7 @@ def export(
     materials: str | Sequence[str] | None = None,
     diameters: Quantity | Sequence[Quantity] | None = None,
     tolerance: float | None = None,
+    as_elastic: bool = False,
     columns: Columns | None = None,
 ) -> dict[str, Any]:
     """Writes input for DEM codes and robotics that reproduces the restitutions.
@@ -238,6 +241,7 @@ def export(
         diameters: diameters of spheres for a table of all pairs.
         tolerance: largest error of the restitution at which a snippet counts as valid; by default 0.01 or, if that is
             larger, the scatter of the data.
+        as_elastic: whether restitutions that are upper bounds are taken as they are.
         columns: names of the columns by their meaning.
 
     Returns:
@@ -268,6 +272,7 @@ def calibrate(
     uncertainty: float | None = None,
     model: Literal["condensed", "ting"] | None = None,
     robust: bool = False,
+    as_elastic: bool = False,
     prior: bool = False,
     confidence: float | None = None,
     columns: Columns | None = None,
@@ -285,6 +290,7 @@ def calibrate(
         uncertainty: standard uncertainty of the restitutions if the data have none.
         model: the model that computes the collisions, ``"condensed"`` by default.
         robust: whether points far from the curve count little; their weights are in ``curves["data"]["weight"]``.
+        as_elastic: whether restitutions that are upper bounds are taken as they are.
         prior: whether the measured relaxation of the case is prior knowledge, whose weights move within their uncertainties.
         confidence: level of the ranges, 0.95 by default.
         columns: names of the columns by their meaning.

@@ -49,6 +49,7 @@ class Result:
     peak_force_raw_n: float | None
     radius_and_pressure: str
     elastic_null: dict[str, Any] | None
+    stress_error: dict[str, float] | None
     contact_episodes: int
     hertz: dict[str, Any]
     energy: dict[str, Any]

@@ -7,7 +7,7 @@ import re
 #: Options whose Python name is another one.
 _NAMES = {"out": "folder"}
 #: Options without a value.
-_FLAGS = {"contact-time", "force", "prior", "robust", "vertical-shift"}
+_FLAGS = {"as-elastic", "contact-time", "force", "prior", "robust", "vertical-shift"}
 #: Options with a list of values after the name, separated by commas.
 _LISTS = {"diameters", "free", "masses", "materials"}
 #: Options with values by key.

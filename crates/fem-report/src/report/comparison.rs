@@ -32,9 +32,8 @@ struct Comparison {
     charts: Vec<String>,
     /// What the judgement of the differences leaves out.
     shared: String,
-    /// Stresses at the peak force, one frame per result, with their colour scale.
-    frames: Vec<FilmFrame>,
-    bar: String,
+    /// Stresses at the peak force, one frame per result.
+    frames: Vec<ScaledFrame>,
     dark_rules: String,
     /// Column heads of the table of numbers, and its rows.
     heads: Vec<String>,
@@ -42,6 +41,24 @@ struct Comparison {
     /// Differing keys of the scene, and of the computation.
     differences: [Vec<(String, Vec<String>)>; 2],
     cite: Vec<String>,
+}
+
+/// A picture with the colour scale that it has with others.
+struct ScaledFrame {
+    frame: FilmFrame,
+    bar: String,
+    /// Index of the scale.
+    scale: usize,
+}
+
+fn scaled_frames((scale, contour): (usize, &Contour)) -> Vec<ScaledFrame> {
+    let scaled = |frame| ScaledFrame { frame, bar: contour.bar(), scale };
+    film(contour).into_iter().map(scaled).collect()
+}
+
+/// Returns the colours of a scale on a dark page.
+fn scoped_rules((scale, contour): (usize, &Contour)) -> String {
+    contour.dark_rules().replace('.', &format!(".scale{scale} ."))
 }
 
 /// A number of a result.
@@ -77,9 +94,8 @@ pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> 
         titles: results.iter().map(StoredResult::title).collect(),
         charts: drawn(charts),
         shared: shared_text(results),
-        frames: stresses.as_ref().map(film).unwrap_or_default(),
-        bar: stresses.as_ref().map(Contour::bar).unwrap_or_default(),
-        dark_rules: stresses.as_ref().map(Contour::dark_rules).unwrap_or_default(),
+        frames: stresses.iter().enumerate().flat_map(scaled_frames).collect(),
+        dark_rules: stresses.iter().enumerate().map(scoped_rules).collect(),
         heads,
         numbers,
         differences: [of_scene, of_numbers],

@@ -89,6 +89,11 @@ fn contour_of(
         rigid_section(result, side, chosen[k], window)
     };
     let mut contour = contour_of_frames(field, sections?, titles, near, rigid);
+    if let Some(error) =
+        stress_error(result).filter(|_| field.array == DrawnField::AXIAL_STRESS.array)
+    {
+        contour.x_label = format!("{}; {error}", contour.x_label);
+    }
     if let [lower, upper] = short_names(result).as_slice() {
         contour.y_label = format!("{lower} \u{2190} {} \u{2192} {upper}", contour.y_label);
     }
@@ -98,9 +103,12 @@ fn contour_of(
 /// Most results whose stresses are drawn next to each other.
 const MAX_RESULTS: usize = 6;
 
-/// Returns the picture of one panel per result at its peak force, all in one window and on one scale; `None` unless at
-/// least two results have fields, and at most `MAX_RESULTS`.
-pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
+/// Ratio of the largest stresses of two results from which one scale would blank the picture of the lower ones.
+const ONE_SCALE: f64 = 4.0;
+
+/// Returns pictures of one panel per result at its peak force, in one window: one picture on one scale or, where that would
+/// blank a panel, one picture per result. There is none unless at least two results have fields, and at most `MAX_RESULTS`.
+pub fn contours_at_peak(results: &[StoredResult]) -> Vec<Contour> {
     let mut shown: Vec<(&StoredResult, &FieldFile)> = Vec::new();
     let (mut stresses, mut widest) = (Vec::new(), 0.0f64);
     for result in results {
@@ -116,14 +124,38 @@ pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
         widest = widest.max(near);
     }
     if !(2..=MAX_RESULTS).contains(&shown.len()) {
-        return None;
+        return Vec::new();
     }
-    let titles = shown.iter().map(|(result, _)| result.name.clone()).collect();
-    let rigid = |k: usize, side: usize, window: &SectionWindow| {
-        let (result, frame) = shown[k];
-        rigid_section(result, side, frame, window)
+    let largest = |sections: &[Section; 2]| {
+        let values = sections.iter().flat_map(|section| &section.values);
+        values.fold(0.0f64, |most, value| most.max(value.abs()))
     };
-    Some(contour_of_frames(DrawnField::AXIAL_STRESS, stresses, titles, widest, rigid))
+    let peaks: Vec<f64> = stresses.iter().map(largest).collect();
+    let highest = peaks.iter().copied().fold(0.0, f64::max);
+    let fit_one_scale = peaks.iter().all(|peak| ONE_SCALE * peak > highest);
+    let picture = |first: usize, stresses: Vec<[Section; 2]>| {
+        let of = &shown[first..first + stresses.len()];
+        let titles = of.iter().map(|(result, _)| result.name.clone()).collect();
+        let rigid = |k: usize, side: usize, window: &SectionWindow| {
+            let (result, frame) = of[k];
+            rigid_section(result, side, frame, window)
+        };
+        contour_of_frames(DrawnField::AXIAL_STRESS, stresses, titles, widest, rigid)
+    };
+    match fit_one_scale {
+        true => vec![picture(0, stresses)],
+        false => stresses.into_iter().enumerate().map(|(k, one)| picture(k, vec![one])).collect(),
+    }
+}
+
+/// Returns the error of the stress near the contact, for a picture.
+fn stress_error(result: &StoredResult) -> Option<String> {
+    let [mean, most] =
+        ["l2", "max"].map(|key| Some(100.0 * result.number(&["stress_error", key])?));
+    Some(format!(
+        "stress \u{b1} {:.0} % (rms), \u{b1} {:.0} % of its largest anywhere",
+        mean?, most?
+    ))
 }
 
 /// Returns the names of the bodies, shortened to the room beside an axis.

@@ -83,13 +83,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let table_of_all = csv(&result)
         .map_err(|error| Failure::failed(format!("accuracy.csv cannot be written: {error}")))?;
-    output.write("accuracy.csv", table_of_all)?;
+    output.write("accuracy.csv", table_of_all);
     let svg = figure(&result);
     let page = markdown(&result, svg.is_some());
     if let Some(svg) = svg {
-        output.write("accuracy.svg", svg)?;
+        output.write("accuracy.svg", svg);
     }
-    output.write("accuracy.md", page)?;
+    output.write("accuracy.md", page);
     output.publish(&json(&result), || {
         let mut text = format!("{}\n", one_line(result.title));
         for part in terminal_tables(&result) {

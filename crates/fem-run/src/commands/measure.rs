@@ -130,8 +130,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let stem = stem_of(path);
     let mut output = arguments.output.claim_with_copy(&stem, "measure", origin, TABLE)?;
     let rows = record.impacts().iter().map(Impact::row);
-    output.write_table("measure.csv", &IMPACT_COLUMNS, rows)?;
-    output.write("measure.svg", record_figure(&record, &rig))?;
+    output.write_table("measure.csv", &IMPACT_COLUMNS, rows);
+    output.write("measure.svg", record_figure(&record, &rig));
     standard_output::warn(record.warnings().iter().cloned());
     let table = shown(&output.place().join("measure.csv"));
     let numbers = record.numbers(&path.display().to_string(), &rig);

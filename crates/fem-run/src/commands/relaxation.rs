@@ -112,10 +112,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.name();
     let mut output = arguments.output.claim_with_copy(&name, "relaxation", origin, TABLE)?;
     let file = format!("{name}.relaxation.toml");
-    output.write(&file, found.relaxation_toml())?;
+    output.write(&file, found.relaxation_toml());
     let rows = found.rows().map(|row| row.into_iter().map(Some).collect::<Vec<_>>());
-    output.write_table("relaxation.csv", found.columns(), rows)?;
-    output.write("relaxation.svg", relaxation_figure(&found))?;
+    output.write_table("relaxation.csv", found.columns(), rows);
+    output.write("relaxation.svg", relaxation_figure(&found));
     let place = shown(&output.place().join(&file)).replace('\\', "/");
     standard_output::warn(found.warnings());
     output.publish(&found.numbers(), || {
@@ -158,7 +158,7 @@ fn answer(found: &FoundRelaxation) -> String {
     format!(
         "{terms}, {constant}; the series misses {} moduli by {:.2} % (rms)\n\n\
          glassy modulus {symbol}0: {}\nrubbery modulus {symbol}∞: {}\nmeasured band: {} to {}{of_test}\n",
-        found.table.points.len() * if found.table.kind == TestKind::Oscillation { 2 } else { 1 },
+        found.points.len() * if found.table.kind == TestKind::Oscillation { 2 } else { 1 },
         100.0 * series.rms,
         modulus(series.instantaneous_modulus(), series.instantaneous_uncertainty),
         modulus(series.equilibrium_modulus, series.equilibrium_uncertainty),
@@ -174,15 +174,25 @@ fn answer(found: &FoundRelaxation) -> String {
 fn shifts(found: &FoundRelaxation) -> String {
     let Some(superposition) = &found.superposition else { return String::new() };
     let log10 = |ln: f64| ln / std::f64::consts::LN_10;
+    let celsius = |kelvin: f64| format!("{:.1} °C", kelvin - ZERO_CELSIUS);
     let row = |block: &Block| {
         let [value, uncertainty] = [block.ln_shift, block.shift_uncertainty].map(log10);
         let shift = match uncertainty > 0.0 {
             true => show_measured(Measured { value, uncertainty }, ""),
             false => "0".to_string(),
         };
-        [format!("{:.1} °C", block.temperature - ZERO_CELSIUS), shift]
+        [celsius(block.temperature), shift]
     };
-    let mut text = headed(">temperature|>log10 a_T", superposition.blocks.iter().map(row)) + "\n";
+    let mut rows: Vec<(f64, [String; 2])> =
+        superposition.blocks.iter().map(|block| (block.temperature, row(block))).collect();
+    rows.extend(
+        superposition
+            .left_out
+            .iter()
+            .map(|kelvin| (*kelvin, [celsius(*kelvin), "not determined".to_string()])),
+    );
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut text = headed(">temperature|>log10 a_T", rows.into_iter().map(|(_, row)| row)) + "\n";
     let measured = |value: f64, uncertainty: f64, unit: &str| {
         show_measured(Measured { value, uncertainty }, unit)
     };

@@ -11,13 +11,22 @@ use crate::text::failure::Status;
 /// group.
 const ONE_SIGNAL: Duration = Duration::from_secs(1);
 
+/// Makes writes beyond a limit on the size of files fail like those on a full disk, instead of ending the process by SIGXFSZ.
+pub fn survive_file_limits() {
+    #[cfg(unix)]
+    {
+        // If no handler can be set, the signal ends the process.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    }
+}
+
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
     /// Listens to the signals that ask a process to end. The first one requests an orderly end, and a later SIGINT, SIGTERM or
     /// SIGHUP ends the process at once. SIGXCPU, which comes again every second, and SIGUSR1 are what batch systems send before a
-    /// job's time is over. After SIGXFSZ a write has failed, and its error is that of a full disk.
+    /// job's time is over.
     pub fn listen() -> Self {
         let interrupt = Self::default();
         // If no handler can be set, a signal ends the process.
@@ -27,16 +36,15 @@ impl Interrupt {
 
     #[cfg(unix)]
     fn handle_signals(&self) -> std::io::Result<()> {
-        use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
+        use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU};
 
-        let asked = [SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGXFSZ];
+        let asked = [SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1];
         let mut signals = signal_hook::iterator::Signals::new(asked)?;
         let interrupt = self.clone();
         std::thread::spawn(move || {
             let mut first = None;
             for signal in signals.forever() {
                 match signal {
-                    SIGXFSZ => {}
                     SIGXCPU | SIGUSR1 => interrupt.request(),
                     _ => interrupt.request_or_exit(&mut first),
                 }

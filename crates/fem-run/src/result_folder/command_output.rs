@@ -1,13 +1,16 @@
 //! The result folder of a fit, a calibration, an export, a cradle, a record or a study of accuracy: `<command>.json`, which
 //! identifies it, and other files.
+//!
+//! On a full disk the answer is printed all the same, and what can be written is kept: the JSON file before all others.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use fem::results::PROGRAM;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::whole_file::OwnedFileKind;
+use super::whole_file::{DISK_FULL, OwnedFileKind};
 use super::{Origin, ResultFolder, ResultPath};
 use crate::text::{Failure, shown, standard_output};
 
@@ -79,7 +82,8 @@ impl OutputArguments {
         let folder = ResultFolder::claim(&place.out, longest_name, origin, self.force)?;
         let files = vec![format!("{command}.json")];
         let (quiet, json) = (self.quiet, self.json);
-        Ok(CommandOutput { folder, made_from, place, files, copy: None, quiet, json })
+        let (copy, missing) = (None, None);
+        Ok(CommandOutput { folder, made_from, place, files, missing, copy, quiet, json })
     }
 }
 
@@ -90,6 +94,8 @@ pub struct CommandOutput {
     made_from: String,
     place: ResultPath,
     files: Vec<String>,
+    /// The reason why the first file that is missing could not be written.
+    missing: Option<String>,
     /// A file beside the folder that has the first file after the JSON file too.
     copy: Option<(OwnedFileKind, PathBuf)>,
     quiet: bool,
@@ -102,12 +108,24 @@ impl CommandOutput {
         &self.place.out
     }
 
-    pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
-        self.files.push(name.to_string());
-        std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {
-            unwritten(name, error)
-                .with_help("nothing was kept; is the disk full, or a quota or ulimit -f reached? An older result is unchanged")
+    /// Writes a file. One that cannot be written is reported by [`CommandOutput::publish`].
+    pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) {
+        match self.try_write(name, bytes.as_ref()) {
+            Ok(()) => self.files.push(name.to_string()),
+            Err(error) => self.lacks(name, &error),
+        }
+    }
+
+    /// Writes a file wholly or not at all.
+    fn try_write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let path = self.folder.path().join(name);
+        std::fs::write(&path, bytes).inspect_err(|_| {
+            let _ = std::fs::remove_file(path);
         })
+    }
+
+    fn lacks(&mut self, name: &str, error: &io::Error) {
+        self.missing.get_or_insert_with(|| format!("{name} cannot be written: {error}"));
     }
 
     pub fn write_table(
@@ -115,17 +133,18 @@ impl CommandOutput {
         name: &str,
         header: &[&str],
         rows: impl IntoIterator<Item = impl AsRef<[Option<f64>]>>,
-    ) -> Result<(), Failure> {
+    ) {
         let mut text = header.join(",") + "\n";
         for row in rows {
             let cells =
                 row.as_ref().iter().map(|value| value.map_or(String::new(), |v| format!("{v:?}")));
             text += &(cells.collect::<Vec<_>>().join(",") + "\n");
         }
-        self.write(name, text)
+        self.write(name, text);
     }
 
-    /// Writes the numbers, moves all files to their place, and prints the numbers, or `text` and the path of that place.
+    /// Writes the numbers, moves all files to their place, and prints the numbers, or `text` and the path of that place. A result that
+    /// lacks files does not replace another one.
     pub fn publish(
         mut self,
         numbers: &impl Serialize,
@@ -137,26 +156,64 @@ impl CommandOutput {
         numbers["version"] = json!(env!("CARGO_PKG_VERSION"));
         numbers["made_from"] = json!(self.made_from);
         numbers["source"] = json!(self.folder.source());
-        numbers["files"] = std::iter::once(&name).chain(&self.files).cloned().collect();
-        let json = format!("{numbers:#}\n");
-        self.write(&name, &json)?;
-        let place = self.folder.publish(true)?;
-        let copied = match (&self.copy, self.files.first()) {
-            (Some((kind, path)), Some(main)) => {
-                let bytes = std::fs::read(place.join(main));
-                kind.replace(path, &bytes.map_err(|error| unwritten(main, error))?)?
-            }
-            _ => String::new(),
+        let json = self.write_numbers(&name, &mut numbers);
+        let Self { folder, place, files, missing, copy, quiet, json: is_json, .. } = self;
+        let placed = match files.is_empty() {
+            true => Ok(None),
+            false => folder.publish(missing.is_none()).map(Some),
         };
-        if self.json {
-            return standard_output::print(&json);
+        let copied = match (&placed, copy, files.get(1)) {
+            (Ok(Some(place)), Some((kind, path)), Some(main)) if missing.is_none() => {
+                let bytes = std::fs::read(place.join(main));
+                bytes
+                    .map_err(|error| unwritten(main, error))
+                    .and_then(|it| kind.replace(&path, &it))
+            }
+            _ => Ok(String::new()),
+        };
+        if is_json {
+            standard_output::print(&json)?;
+        } else if !quiet {
+            let copied = copied.as_ref().map_or("", String::as_str);
+            let result = match &placed {
+                Ok(Some(found)) => shown(found) + &place.note(),
+                _ => "not written".to_string(),
+            };
+            standard_output::print(&format!("{}\n{copied}Result: {result}\n", text()))?;
         }
-        if self.quiet {
-            return Ok(());
-        }
-        let note = self.place.note();
-        standard_output::print(&format!("{}\n{copied}Result: {}{note}\n", text(), shown(&place)))
+        placed.and(copied)?;
+        missing.map_or(Ok(()), |missing| Err(incomplete(missing, &files)))
     }
+
+    /// Writes the file of the numbers, with the names of all files, and returns its text. If there is no room for it, it gets that of
+    /// the other files; if it cannot be written at all, there are no files.
+    fn write_numbers(&mut self, name: &str, numbers: &mut Value) -> String {
+        loop {
+            let others = std::mem::take(&mut self.files);
+            self.files = std::iter::once(name.to_string()).chain(others).collect();
+            numbers["files"] = json!(self.files);
+            let json = format!("{numbers:#}\n");
+            let Err(error) = self.try_write(name, json.as_bytes()) else { return json };
+            self.lacks(name, &error);
+            let others = self.files.split_off(1);
+            self.files.clear();
+            if others.is_empty() {
+                return json;
+            }
+            for other in others {
+                let _ = std::fs::remove_file(self.folder.path().join(other));
+            }
+        }
+    }
+}
+
+/// Returns the failure of a result that lacks files.
+fn incomplete(missing: String, files: &[String]) -> Failure {
+    let kept = match files.is_empty() {
+        true => "nothing was kept, and an older result is unchanged".to_string(),
+        false => format!("kept: {}", files.join(", ")),
+    };
+    Failure::failed(missing).with_help(format!("{kept}; {DISK_FULL}"))
 }
 
 fn unwritten(name: &str, error: impl std::fmt::Display) -> Failure {

@@ -18,7 +18,8 @@ use fem_collision::{Collision, SnapshotInstant};
 use fem_report::report::{REPORT_FILE, StoredResult, report_page};
 use fem_report::section_view::{DrawnField, contour_of_frames, half_width, mirrored, sections};
 
-use super::{Origin, ResultFolder, whole_file::write_whole};
+use super::whole_file::{DISK_FULL, write_whole};
+use super::{Origin, ResultFolder};
 use crate::{progress::stopwatch::Stopwatch, text::Failure};
 
 const RESERVE_FILE: &str = ".fem-run-room";
@@ -101,8 +102,7 @@ pub fn write_result(
     }
     let fault = missing.map(|missing| {
         let kept = summary.files.join(", ");
-        Failure::failed(missing)
-            .with_help(format!("kept: {kept}; is the disk full, or a quota or ulimit -f reached?"))
+        Failure::failed(missing).with_help(format!("kept: {kept}; {DISK_FULL}"))
     });
     WrittenResult { summary, text, fault }
 }
@@ -131,8 +131,9 @@ fn nothing_written(
     error: &dyn std::error::Error,
 ) -> WrittenResult {
     summary.files.clear();
-    let fault = Failure::failed(format!("the result cannot be written: {error}"))
-        .with_help("nothing was kept of this run; is the disk full, or a quota or ulimit -f reached? An older result is unchanged");
+    let fault = Failure::failed(format!("the result cannot be written: {error}")).with_help(
+        format!("nothing was kept of this run, and an older result is unchanged; {DISK_FULL}"),
+    );
     WrittenResult { summary, text, fault: Some(fault) }
 }
 

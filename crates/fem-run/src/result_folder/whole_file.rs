@@ -10,6 +10,8 @@ use crate::text::{Failure, shown, standard_output};
 
 pub const PREFIX: &str = ".fem-run-";
 pub const SUFFIX: &str = ".tmp";
+/// The likely reasons why a file of a result cannot be written.
+pub const DISK_FULL: &str = "is the disk full, or a quota or ulimit -f reached?";
 /// Bytes at the beginning of a file in which its marker is searched.
 const HEAD: u64 = 600;
 
@@ -106,9 +108,14 @@ impl OwnedFileKind {
         let shown = shown(path);
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         write_whole(path, folder.unwrap_or(Path::new(".")), bytes).map_err(|error| {
+            use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+            let message = format!("{shown}: {error}");
+            if matches!(error.kind(), FileTooLarge | QuotaExceeded | StorageFull) {
+                return Failure::failed(message).with_help(DISK_FULL);
+            }
             let help =
                 format!("name a file in a folder that you may write to with {}", self.option);
-            Failure::bad_input(format!("{shown}: {error}")).with_help(help)
+            Failure::bad_input(message).with_help(help)
         })?;
         let (first, rest) = self.what.split_at(1);
         Ok(format!("{}{rest}: {shown}\n", first.to_uppercase()))

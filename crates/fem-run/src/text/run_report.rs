@@ -11,6 +11,7 @@ use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::ToleranceValue;
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
+use fem_report::answer::answer_text;
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -67,8 +68,8 @@ fn short(summary: &Summary) -> String {
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
     if let Some(contacts) = &summary.bounces {
-        let shown = contacts.iter().take(MAX_BOUNCES_IN_SHORT).filter_map(|it| it.restitution);
-        let mut values: Vec<String> = shown.map(|value| format!("{value:.4}")).collect();
+        let shown = contacts.iter().take(MAX_BOUNCES_IN_SHORT);
+        let mut values: Vec<String> = shown.map(restitution_of_bounce).collect();
         if contacts.len() > MAX_BOUNCES_IN_SHORT {
             values.push("…".to_string());
         }
@@ -78,7 +79,11 @@ fn short(summary: &Summary) -> String {
     if let Some(rest) = &summary.rest {
         row("at rest", format!("from {} on", rest.time_s.map_or(NONE.into(), |t| show(t, "s"))));
     }
-    for (name, text) in flow(summary) {
+    // Of two dents the deeper one; -v has both.
+    let deepest = |a: &&DentSummary, b: &&DentSummary| {
+        a.depth_m.unwrap_or(0.0).total_cmp(&b.depth_m.unwrap_or(0.0))
+    };
+    for (name, text) in flow(summary, summary.dent.iter().flatten().max_by(deepest).into_iter()) {
         row(name, text);
     }
     let chosen = summary.models_considered.iter().flatten().find(|candidate| candidate.chosen);
@@ -107,8 +112,11 @@ fn short(summary: &Summary) -> String {
     format!("\n{deficit}{rows}{off}")
 }
 
-/// Returns the dent of each body that flowed, and where the energy went.
-fn flow(summary: &Summary) -> Vec<(&'static str, String)> {
+/// Returns dents of bodies that flowed, and where the energy went.
+fn flow<'a>(
+    summary: &Summary,
+    dents: impl Iterator<Item = &'a DentSummary>,
+) -> Vec<(&'static str, String)> {
     let unknown = || UNKNOWN.to_string();
     let length = |value: Option<f64>| value.map_or_else(unknown, |value| show(value, "m"));
     let dent = |dent: &DentSummary| {
@@ -122,7 +130,7 @@ fn flow(summary: &Summary) -> Vec<(&'static str, String)> {
         );
         ("dent", text)
     };
-    let mut rows: Vec<_> = summary.dent.iter().flatten().map(dent).collect();
+    let mut rows: Vec<_> = dents.map(dent).collect();
     let energy = &summary.energy;
     let shares = [energy.get(Account::PlasticWork), energy.locked_in_j].map(|part| {
         let share = part.zip(energy.initial_j).map(|(part, initial)| 100.0 * part / initial);
@@ -321,6 +329,16 @@ fn with_known_digits(value: f64, error: Option<f64>) -> String {
     number(value, digits.clamp(1.0, 3.0) as usize)
 }
 
+/// Returns the restitution of a contact of a bouncing ball, with its error bar if it has one.
+fn restitution_of_bounce(bounce: &BounceSummary) -> String {
+    let parts = &bounce.restitution_uncertainty;
+    match bounce.restitution {
+        None => NONE.to_string(),
+        Some(value) if *parts == Parts::default() => format!("{value:.4}"),
+        Some(value) => answer_text(value, parts, QuantityOfInterest::Restitution),
+    }
+}
+
 /// Returns one line per contact of a bouncing ball, and the contact at rest.
 fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
     let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
@@ -329,7 +347,7 @@ fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
             (k + 1).to_string(),
             quantity(bounce.time_s, "s"),
             quantity(bounce.speed_before_m_s, "m/s"),
-            bounce.restitution.map_or(NONE.into(), |restitution| format!("{restitution:.4}")),
+            restitution_of_bounce(bounce),
             quantity(bounce.contact_time_s, "s"),
             quantity(bounce.peak_force_n, "N"),
         ]
@@ -421,7 +439,9 @@ fn balances(summary: &Summary) -> String {
         momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
     // Closed forms take less than is worth printing.
     let cost = summary.steps.is_some().then(|| ["cost".into(), cost_text(summary)]);
-    let of_flow = flow(summary).into_iter().map(|(name, text)| [name.to_string(), text]);
+    let of_flow = flow(summary, summary.dent.iter().flatten())
+        .into_iter()
+        .map(|(name, text)| [name.to_string(), text]);
     let rows =
         peaks.into_iter().chain(null).chain(of_flow).chain([energy]).chain(momentum).chain(cost);
     table(&[Left, Left], rows)

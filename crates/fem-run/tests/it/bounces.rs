@@ -23,7 +23,14 @@ fn bounces_are_printed_and_written_to_summary_and_history() {
         assert_eq!(contacts.len() == 3, !has_rest, "{}", contacts.len());
         assert_eq!(contacts[0]["restitution"], summary["restitution"]);
         let keys: Vec<&String> = contacts[0].as_object().unwrap().keys().collect();
-        let named = ["speed_before_m_s", "restitution", "contact_time_s", "peak_force_n", "time_s"];
+        let named = [
+            "speed_before_m_s",
+            "restitution",
+            "restitution_uncertainty",
+            "contact_time_s",
+            "peak_force_n",
+            "time_s",
+        ];
         assert_eq!(keys, named);
         assert_eq!(summary["rest"].is_object(), has_rest);
         assert_eq!(summary["complete"], true);

@@ -27,7 +27,7 @@ use crate::rejection::Rejection;
 pub use decision::neglect_error::{EffectStatus, NeglectError};
 pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub(crate) use decision::simplified_scene::SimplifiedScene;
-pub use decision::simplified_scene::TransformedScene;
+pub use decision::simplified_scene::{Transformation, TransformedScene};
 pub use decision::support::Support;
 pub use decision::{
     AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, EffectKind,

@@ -7,7 +7,7 @@ use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::{NamedEffect, PartnerWaves};
 use crate::estimate::Estimate;
-use crate::estimate::plate_impact::thin_plate_mobility;
+use crate::estimate::plate_impact::{plate_mobility_of, thin_plate_mobility};
 use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;
 
@@ -50,6 +50,21 @@ impl TingPrediction {
         let size = finite_size.then(|| scene.finite_size()).transpose()?;
         let ting = finish(ting_of(scene, estimate.hertz.pair(), true, size)?)?;
         let ting = ting.with_radiation(radiating.iter().flatten())?;
+        Ok(Self::from(&*known_impact(ting, speed)?))
+    }
+
+    /// Predicts the collision between half-spaces of elastic or relaxing bodies, of which a plate has its finite thickness,
+    /// without waves.
+    ///
+    /// # Errors
+    /// Numbers that the law rejects.
+    pub fn on_thick_plate(scene: &Scene, speed: f64) -> Result<Self, LawError> {
+        let pair = *Estimate::at(scene, speed)?.hertz.pair();
+        let ting = ting_of(scene, &pair, true, None)?.with_tolerance(PREDICTION_TOLERANCE)?;
+        let ting = match plate_mobility_of(scene, &pair)? {
+            Some(mobility) => ting.with_plate(mobility)?,
+            None => ting,
+        };
         Ok(Self::from(&*known_impact(ting, speed)?))
     }
 

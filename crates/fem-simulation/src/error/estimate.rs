@@ -4,6 +4,7 @@ use fem_case::CaseError;
 use fem_collision::QuantityOfInterest;
 
 use super::elastic_null::ElasticNull;
+use super::stress_error::StressError;
 use crate::effects::EffectDecisions;
 use crate::quantity_errors::QuantityErrors;
 
@@ -14,6 +15,8 @@ pub struct ErrorEstimate {
     pub(super) parts: [Option<BarParts>; 6],
     /// Loss of a relaxing run without relaxation.
     pub elastic_null: Option<ElasticNull>,
+    /// Error of the recovered stress near the contact; `None` without a reference run or a snapshot.
+    pub stress_error: Option<StressError>,
     /// Element updates of all reference runs so far, those of coarser meshes included.
     pub element_updates: u64,
     /// The effects of the collision, on which error bars and warnings depend.

@@ -3,11 +3,12 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::{
-    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE,
+    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, PLATE, SAMPLED_PER_TOLERANCE,
 };
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
 use super::reference_runs::{EstimatedCollision, ReferenceRuns, Values};
+use super::stress_error::{ContactStress, StressError};
 use crate::effects::FiniteStrain;
 use crate::models::explicit::cost::needs_own_reference;
 use crate::models::method::Cost;
@@ -87,11 +88,7 @@ impl ErrorEstimator {
         let plan = &simulation.setup().elements.as_ref()?.plan;
         let subject = &EstimatedCollision { simulation, approach: collision.approach, plan, size };
         let is_explicit = collision.element_updates.is_some();
-        let is_finite = || simulation.decisions(collision).is_active(FiniteStrain::NAME);
-        let needs_own = is_explicit
-            && simulation
-                .estimate(collision)
-                .is_none_or(|estimate| needs_own_reference(&estimate, is_finite()));
+        let needs_own = is_explicit && needs_own(simulation, collision);
         match (is_explicit, plan.makes_meshes, needs_own) {
             (true, false, true) => None,
             (true, false, false) => Some((self.runs.mesh_file(subject, None, across)?, &EXPLICIT)),
@@ -105,12 +102,30 @@ impl ErrorEstimator {
                 let condensed = self.runs.condensed(subject).map(|(errors, _)| errors);
                 let condensed = |k: usize| condensed.and_then(|condensed| condensed[k]);
                 let both = |k: usize| Some(own[k]? + condensed(k).unwrap_or(0.0));
-                Some((std::array::from_fn(both), &COARSER_RUN))
+                let constants = if plan.estimate.bends { &PLATE } else { &COARSER_RUN };
+                Some((std::array::from_fn(both), constants))
             }
             (false, false, _) => {
                 Some((self.runs.mesh_file(subject, Some(values), across)?, &CONDENSED))
             }
             (false, true, _) => Some((self.runs.coarser(subject, values)?, &CONDENSED)),
+        }
+    }
+
+    /// Returns the error of the recovered stress near the contact; `None` without a snapshot of the largest approach.
+    pub(super) fn stress_error(
+        &mut self,
+        simulation: &Simulation,
+        collision: &Collision,
+    ) -> Option<StressError> {
+        let size = contact_element_size(simulation, collision)?;
+        let stress = ContactStress::of(simulation, collision)?;
+        let plan = &simulation.setup().elements.as_ref()?.plan;
+        let subject = &EstimatedCollision { simulation, approach: collision.approach, plan, size };
+        let is_explicit = collision.element_updates.is_some();
+        match plan.makes_meshes && (!is_explicit || needs_own(simulation, collision)) {
+            true => self.runs.stress_of_coarser(subject, &stress),
+            false => self.runs.stress_of_condensed(subject, &stress),
         }
     }
 
@@ -159,6 +174,13 @@ impl ErrorEstimator {
     }
 }
 
+/// Returns whether the error of explicit elements needs a reference run of explicit elements.
+fn needs_own(simulation: &Simulation, collision: &Collision) -> bool {
+    let is_finite = || simulation.decisions(collision).is_active(FiniteStrain::NAME);
+    let estimate = simulation.estimate(collision);
+    estimate.is_none_or(|estimate| needs_own_reference(&estimate, is_finite()))
+}
+
 /// Returns the parts of all bars.
 fn bar_parts(
     errors: Values,
@@ -173,11 +195,11 @@ fn bar_parts(
         Some(BarParts {
             constants: calibration.name,
             reference_error: errors[k]?,
-            safety_factor: calibration.safety_factor,
+            safety_factor: calibration.safety_factor[k],
             across,
             edge: calibration.edge[k] / across.max(1.0).powi(calibration.edge_power),
             scatter: calibration.scatter[k],
-            moved_mass: MOVED_MASS[k] * moved_share,
+            moved_mass: calibration.moved_mass[k] * moved_share,
         })
     })
 }
@@ -220,15 +242,16 @@ mod tests {
     fn error_bar_is_the_sum_of_its_documented_parts() {
         let calibration = Calibration {
             name: "",
-            safety_factor: 2.0,
+            safety_factor: [2.0; 6],
             edge: [0.16; 6],
             edge_power: 2,
             scatter: [5e-4; 6],
+            moved_mass: [0.3; 6],
         };
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {
             let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };
-            let expected = 2e-3 + edge + 5e-4 + 0.01 * MOVED_MASS[k];
+            let expected = 2e-3 + edge + 5e-4 + 0.01 * 0.3;
             assert!((parts.unwrap().sum() - expected).abs() < 1e-12, "{k}");
         }
         let mut errors = [Some(0.0); 6];

@@ -38,6 +38,7 @@ mod reference_runs;
 mod refinement;
 mod refinement_cost_bound;
 mod setting;
+mod stress_error;
 mod tolerance_check;
 mod tolerance_warnings;
 
@@ -52,6 +53,7 @@ pub use reference_runs::{CONDENSED_REFERENCE_TIME, first_contact};
 pub use refinement::{ComputedCollision, RefinedBeforeRun, collide};
 pub use refinement_cost_bound::RefinementBound;
 pub use setting::Setting;
+pub use stress_error::StressError;
 pub(crate) use tolerance_warnings::{
     early_pressure_warning, tolerance_warning, unresolved_warning,
 };

@@ -2,10 +2,13 @@
 
 use fem_case::schema::{ContactMethod, EmptyTable, StopTable};
 use fem_case::{CaseFile, Quantity, defaults};
-use fem_collision::{Approach, Collision, OutputRequest, QuantityOfInterest};
+use fem_collision::{
+    Approach, Collision, OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest,
+};
 
 use super::calibration::ORDER;
 use super::setting::Setting;
+use super::stress_error::{ContactStress, StressError};
 use crate::estimate::Estimate;
 use crate::models::method::Cost;
 use crate::plan::Plan;
@@ -52,6 +55,8 @@ struct ReferenceRun {
     values: Option<Values>,
     /// Element updates over those that closed forms expect.
     updates_over_expected: f64,
+    /// The stress at its largest approach, of runs of the model itself.
+    stress: Option<ContactStress>,
 }
 
 /// The reference runs of a case so far, each computed once.
@@ -167,6 +172,34 @@ impl ReferenceRuns {
         run.values.map(|_| run.updates_over_expected)
     }
 
+    /// Returns the error of a stress from the coarser run of the model itself.
+    pub fn stress_of_coarser(
+        &mut self,
+        subject: &EstimatedCollision<'_>,
+        stress: &ContactStress,
+    ) -> Option<StressError> {
+        COARSER_ELEMENT_RATIOS.into_iter().find_map(|ratio| {
+            let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
+            let run = self.run(subject, &settings, FarMesh::AsGiven, u64::MAX)?;
+            stress.error(run.stress.as_ref()?, ratio)
+        })
+    }
+
+    /// Returns the error of a stress from condensed bodies with elements half as large, whose nodes touch exactly.
+    pub fn stress_of_condensed(
+        &mut self,
+        subject: &EstimatedCollision<'_>,
+        stress: &ContactStress,
+    ) -> Option<StressError> {
+        let size = Setting::ElementSize(0.5 * subject.size);
+        let settings = [condensed(false), size, Setting::Staggered(false)];
+        let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
+        let request = OutputRequest { snapshots, ..OutputRequest::quantities() };
+        let (reference, collision) = collide(subject, &settings, FarMesh::ByRule, &request)?;
+        self.count(&collision);
+        stress.error(&ContactStress::of(&reference, &collision)?, 0.5)
+    }
+
     /// Returns whether a condensed reference run of a collision has been computed.
     pub fn has_condensed(&self, approach: &Approach) -> bool {
         let is_condensed = |run: &ReferenceRun| {
@@ -221,13 +254,22 @@ impl ReferenceRuns {
         if let Some(k) = self.known.iter().position(is_it) {
             return Some(&self.known[k]);
         }
-        let collided = collide(subject, settings, far_mesh, most_element_updates);
-        let (mut values, mut updates_over_expected) = (None, 1.0);
+        // The stress is free in a run of the model itself; condensed bodies compute their motion again for it.
+        let is_own = !settings.iter().any(|it| matches!(it, Setting::Condensed { .. }));
+        let snapshots = match is_own && !subject.simulation.request().snapshots.is_empty() {
+            true => SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]),
+            false => SnapshotRequest::none(),
+        };
+        let request =
+            OutputRequest { most_element_updates, snapshots, ..OutputRequest::quantities() };
+        let collided = collide(subject, settings, far_mesh, &request);
+        let (mut values, mut updates_over_expected, mut stress) = (None, 1.0, None);
         if let Some((reference, collision)) = collided {
             self.count(&collision);
             if collision.is_complete() {
                 values = Some(QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision)));
                 updates_over_expected = updates_ratio(&reference, &collision).unwrap_or(1.0);
+                stress = ContactStress::of(&reference, &collision);
             } else if most_element_updates < u64::MAX {
                 return None;
             }
@@ -238,6 +280,7 @@ impl ReferenceRuns {
             far_mesh,
             values,
             updates_over_expected,
+            stress,
         });
         self.known.last()
     }
@@ -252,7 +295,7 @@ fn collide(
     subject: &EstimatedCollision<'_>,
     settings: &[Setting],
     far_mesh: FarMesh,
-    most_element_updates: u64,
+    request: &OutputRequest,
 ) -> Option<(Simulation, Collision)> {
     let EstimatedCollision { simulation, approach, .. } = subject;
     let is_condensed = settings.iter().any(|it| matches!(it, Setting::Condensed { .. }));
@@ -302,8 +345,7 @@ fn collide(
     });
     let shared = simulation.shared().for_reference_runs();
     let reference = Simulation::sharing(case.ok()?, &shared).ok()?;
-    let request = OutputRequest { most_element_updates, ..OutputRequest::quantities() };
-    let collision = reference.model().collide(approach, &request, &mut ());
+    let collision = reference.model().collide(approach, request, &mut ());
     Some((reference, collision))
 }
 

@@ -148,8 +148,10 @@ impl ErrorEstimator {
         estimate: ErrorEstimate,
     ) -> ErrorEstimate {
         let elastic_null = elastic_null(simulation, collision, &mut self.runs);
+        let stress_error = self.stress_error(simulation, collision);
         ErrorEstimate {
             elastic_null,
+            stress_error,
             decisions: simulation.decisions(collision),
             element_updates: self.runs.element_updates(),
             ..estimate

@@ -142,6 +142,12 @@ impl Estimate {
             let sizes = sizes_of(&impact, &relaxed_impact);
             ImpactQuantities { contact_time: sizes.contact_time.max(last), ..sizes }
         });
+        // A ball that sinks in with its plate is stopped as an elastic one is.
+        let stopped = bent.map_or(relaxed_impact.contact_time(), |bent| bent.contact_time);
+        let flow = flow.map(|impact| match impact.contact_time.is_finite() {
+            true => impact,
+            false => ImpactQuantities { contact_time: stopped, ..impact },
+        });
         let sizes = flow.or(bent).unwrap_or_else(|| ImpactQuantities::from(&relaxed_impact));
         let contact_radius = sizes.max_contact_radius;
         let materials = || scene.bodies().iter().filter_map(Body::material);

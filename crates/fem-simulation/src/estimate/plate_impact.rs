@@ -7,8 +7,8 @@
 
 use fem_case::{Body, Plate, PlateSupport, Scene};
 use fem_laws::{
-    FreePlate, HertzImpact, LawError, Pair, plate_lambda, plate_mobility, plate_wave_travel,
-    rayleigh_wave_speed,
+    FreePlate, HertzImpact, LOSS_PER_LAMBDA, LawError, Pair, plate_lambda, plate_mobility,
+    plate_wave_travel, rayleigh_wave_speed,
 };
 use fem_material::Material;
 
@@ -17,6 +17,11 @@ use crate::estimate::effective_modulus::left_at;
 
 /// c₀T/h from which a plate is thin.
 pub(crate) const THIN: f64 = 10.0;
+/// λ from which a ball leaves a thin plate at less than a thousandth of its speed, e = 0.679 λ⁻⁵, so that the contact lasts.
+const LASTING: f64 = 3.7;
+/// Deflection over the thickness up to which a plate bends without stretching: linear theory holds "where the maximum deflection
+/// does not exceed half the plate thickness" (Case, Chilver & Ross 1999, *Strength of Materials and Structures*, section 19.1).
+pub(crate) const LARGE_DEFLECTION: f64 = 0.5;
 
 /// How a plate answers an impact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,8 +56,10 @@ pub struct PlateImpact<'a> {
     pub lambda: f64,
     /// Thicknesses that waves of the speed √(E/ρ) travel during Hertz' contact.
     pub thicknesses: f64,
-    /// Contact times until a surface wave is back from the edge; infinite without an edge.
+    /// Contact times until a surface wave is back from the edge; infinite without an edge, 0 where the contact lasts.
     pub edge_return: f64,
+    /// Deflection at the end of the contact over the thickness; 0 for a bonded plate and a half-space.
+    pub deflection: f64,
     /// How the plate answers.
     pub regime: PlateRegime,
 }
@@ -66,22 +73,38 @@ impl<'a> PlateImpact<'a> {
         let material = left_at(whole, estimate.effective.after);
         let way = |speed: f64| speed * contact_time;
         let thicknesses = plate_wave_travel(hertz, &material, plate.thickness);
-        let edge_return = plate
-            .diameter
-            .map_or(f64::INFINITY, |diameter| diameter / way(rayleigh_wave_speed(&material)));
+        let mobility = plate_mobility(whole, plate.thickness);
+        let lambda = plate_lambda(hertz, mobility);
         let is_thick = way(material.dilatational_wave_speed()) < 2.0 * plate.thickness;
         let regime = match thicknesses {
             _ if is_thick => PlateRegime::Thick,
             THIN.. => PlateRegime::Thin,
             _ => PlateRegime::Between,
         };
-        let lambda = plate_lambda(hertz, plate_mobility(whole, plate.thickness));
-        Some(Self { body, plate, lambda, thicknesses, edge_return, regime })
+        let edge_return = match plate.diameter {
+            None => f64::INFINITY,
+            Some(_) if lambda >= LASTING && !is_thick => 0.0,
+            Some(diameter) => diameter / way(rayleigh_wave_speed(&material)),
+        };
+        // A dashpot moves by its mobility times the impulse.
+        let momentum = hertz.pair().effective_mass() * hertz.approach_speed();
+        let impulse = momentum * (1.0 + (-LOSS_PER_LAMBDA * lambda).exp());
+        let deflection = match plate.support {
+            PlateSupport::Free if !is_thick => mobility * impulse / plate.thickness,
+            _ => 0.0,
+        };
+        Some(Self { body, plate, lambda, thicknesses, edge_return, deflection, regime })
     }
 
     /// Returns whether no wave returns within the contact from anywhere, so that the plate is a half-space.
     pub fn is_half_space(&self) -> bool {
         self.regime == PlateRegime::Thick && self.edge_return > 1.0
+    }
+
+    /// Returns the relative error of linear plate theory, to which stretching of the middle surface adds the square of the
+    /// deflection; `None` beyond its limit.
+    pub fn linear_theory_error(&self) -> Option<f64> {
+        (self.deflection <= LARGE_DEFLECTION).then(|| self.deflection.powi(2))
     }
 
     /// Returns whether the plate can be a dashpot: it is free below, bends, and no wave returns from its edge.

@@ -5,7 +5,7 @@
 //! whose size cannot be estimated, or if its result would come with the advice to use another model.
 
 use fem_case::engineering::number;
-use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch, defaults};
+use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Switch, defaults};
 use fem_collision::QuantityOfInterest;
 use serde::Serialize;
 
@@ -118,8 +118,9 @@ impl SelectedModel {
             let serves = judged.iter().position(|judged| judged.rejection_reason.is_none());
             let best = serves.unwrap_or_else(|| closest(&judged));
             let chosen = scene.clone().with_model((CANDIDATES[best].choice)());
-            match method_of(&chosen).check(&chosen) {
-                // The next one may compute what this one would stop at.
+            let method = method_of(&chosen);
+            match method.check(&chosen).and_then(|()| method.expected(&chosen)) {
+                // The next one may compute what this one would stop at or reject.
                 Err(rejection) if judged[best].is_possible => {
                     judged[best].is_possible = false;
                     judged[best].rejection_reason = Some(rejection.message);
@@ -144,10 +145,12 @@ impl SelectedModel {
             .collect();
         let scene = scene.clone().with_model((CANDIDATES[best].choice)());
         let warning = serves.is_none().then(|| {
-            format!(
-                "no model is known to be within the tolerance of the case: {} comes closest, with an expected error of {:.1} times the tolerance",
-                considered[best].model, excess
-            )
+            let error = match excess.is_finite() {
+                true => format!("with an expected error of {excess:.1} times the tolerance"),
+                false => "with an error that is not known".to_string(),
+            };
+            let model = considered[best].model;
+            format!("no model is known to be within the tolerance of the case: {model} comes closest, {error}")
         });
         Ok(Self { scene, considered, warning })
     }
@@ -231,10 +234,10 @@ struct CandidateVerdict {
     rejection_reason: Option<String>,
 }
 
-/// Returns the index of the most accurate candidate that is possible.
+/// Returns the index of the most accurate candidate that is possible, and the most complete one where no error is known.
 fn closest(judged: &[CandidateVerdict]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
-    let closest = possible.min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
+    let closest = possible.rev().min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
     closest.map_or(judged.len() - 1, |(k, _)| k)
 }
 
@@ -422,11 +425,5 @@ fn excess(error: &QuantityErrors, scene: &Scene, estimate: &Estimate) -> f64 {
 
 /// Returns whether the case asks for snapshots or probes.
 fn asks_for_fields(scene: &Scene) -> bool {
-    match scene.snapshots() {
-        _ if !scene.probes().is_empty() => true,
-        None => false,
-        Some(Snapshots::Labels(labels)) => !labels.is_empty(),
-        Some(Snapshots::Count(_)) => true,
-        Some(Snapshots::Times(times)) => !times.is_empty(),
-    }
+    !scene.probes().is_empty() || scene.snapshots().is_some_and(|asked| !asked.is_empty())
 }

@@ -15,7 +15,7 @@ mod sticking;
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
-use crate::effects::{SimplifiedScene, Support};
+use crate::effects::{SimplifiedScene, Transformation};
 use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
@@ -55,7 +55,7 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
 pub(crate) struct ComputedScene {
     /// The transformed scene with the selected model.
     pub selected: SelectedModel,
-    supports: Vec<(&'static str, Support)>,
+    transformations: Vec<(&'static str, Transformation)>,
 }
 
 impl ComputedScene {
@@ -64,8 +64,8 @@ impl ComputedScene {
     /// # Errors
     /// A scene that an effect rejects, or whose closed-form estimates are not finite.
     pub fn of(given: &Scene) -> Result<Self, Rejection> {
-        let SimplifiedScene { scene, supports } = SimplifiedScene::of(given)?;
-        Ok(Self { selected: SelectedModel::of(&scene)?, supports })
+        let SimplifiedScene { scene, transformations } = SimplifiedScene::of(given)?;
+        Ok(Self { selected: SelectedModel::of(&scene)?, transformations })
     }
 
     fn method(&self) -> &'static dyn Method {
@@ -84,9 +84,9 @@ impl ComputedScene {
             Some(gravity) => Box::new(Bouncing::new(scene, gravity, model, bond)?),
             None => model,
         };
-        match self.supports.is_empty() {
+        match self.transformations.is_empty() {
             true => Ok(model),
-            false => Ok(Box::new(Simplified::new(model, given, self.supports.clone())?)),
+            false => Ok(Box::new(Simplified::new(model, given, self.transformations.clone())?)),
         }
     }
 

@@ -5,7 +5,7 @@ use fem_case::Scene;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_mesh::SphereMesh;
 
-use crate::effects::{Effect, Support, decide};
+use crate::effects::{Effect, Support, Transformation, decide};
 use crate::estimate::Estimate;
 use crate::models::method::{Model, ModelSetup};
 use crate::models::stepper::{RestartState, Stepper};
@@ -16,37 +16,28 @@ use crate::rejection::Rejection;
 pub(super) struct Simplified {
     model: Box<dyn Model>,
     setup: ModelSetup,
-    supports: Vec<(&'static str, Support)>,
+    given: Scene,
+    transformations: Vec<(&'static str, Transformation)>,
 }
 
 impl Simplified {
-    /// Makes the model of a given scene from that of the transformed scene and the supports of the effects.
+    /// Makes the model of a given scene from that of the transformed scene and the transformations.
     ///
     /// # Errors
     /// A switch of an effect that the model cannot obey.
     pub fn new(
         model: Box<dyn Model>,
         given: &Scene,
-        supports: Vec<(&'static str, Support)>,
+        transformations: Vec<(&'static str, Transformation)>,
     ) -> Result<Self, Rejection> {
         let own = model.setup().clone();
         let estimate = Estimate::checked(given)?;
-        let support = |effect: &dyn Effect| support(effect, &supports, model.as_ref(), &estimate);
-        let decisions = decide(given, &estimate, support)?;
-        let setup = ModelSetup { estimate, decisions, ..own };
-        Ok(Self { model, setup, supports })
+        let setup = ModelSetup { estimate, ..own };
+        let mut made = Self { model, setup, given: given.clone(), transformations };
+        let estimate = &made.setup.estimate;
+        made.setup.decisions = decide(given, estimate, |effect| made.support(effect, estimate))?;
+        Ok(made)
     }
-}
-
-/// Returns the support of the effects that transformed the scene, or else the model's support.
-fn support(
-    effect: &dyn Effect,
-    supports: &[(&'static str, Support)],
-    model: &dyn Model,
-    estimate: &Estimate,
-) -> Option<Support> {
-    let own = supports.iter().find(|(name, _)| *name == effect.name());
-    own.map(|(_, support)| support.clone()).or_else(|| model.support(effect, estimate))
 }
 
 impl Model for Simplified {
@@ -55,7 +46,11 @@ impl Model for Simplified {
     }
 
     fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        support(effect, &self.supports, self.model.as_ref(), estimate)
+        let of_model = self.model.support(effect, estimate);
+        let own = self.transformations.iter().find(|(name, _)| *name == effect.name());
+        let Some((_, transformation)) = own else { return of_model };
+        let relevance = effect.relevance(&self.given, estimate).unwrap_or_default();
+        transformation.support(of_model, &relevance.number)
     }
 
     fn collide(

@@ -75,7 +75,7 @@ impl BodySource {
     pub fn n_elements(&self) -> Result<usize, Rejection> {
         match self {
             Self::Meshed { mesh, .. } => {
-                mesh.n_elements().map_err(|error| mesh_rejection(&error, 0))
+                mesh.n_elements().map_err(|error| mesh_rejection(&error, 0, mesh.is_bonded()))
             }
             Self::Rigid { .. } | Self::Wall => Ok(0),
         }
@@ -88,7 +88,9 @@ impl BodySource {
     pub fn build(&self, side: usize) -> Result<BodyInput, Rejection> {
         Ok(match self {
             Self::Meshed { mesh, material } => {
-                let mesh = mesh.build(side).map_err(|error| mesh_rejection(&error, side))?;
+                let is_bonded = mesh.is_bonded();
+                let mesh =
+                    mesh.build(side).map_err(|error| mesh_rejection(&error, side, is_bonded))?;
                 let material = material.clone();
                 match mesh.is_half_space() {
                     true => BodyInput::HalfSpace { mesh, material },

@@ -46,6 +46,9 @@ const TOLERANCE_SHARE_OF_MESH: f64 = 0.75;
 const MASS_OVER_TOLERANCE: f64 = 0.5;
 /// Most mass that is moved by default: bodies with relaxation times near the time step are more sensitive.
 const MAX_MOVED_MASS: f64 = 1e-2;
+/// Moved mass on a plate that bends over that elsewhere: moved mass takes part in the motion of the plate, and changes the
+/// restitution four times as much.
+const MASS_ON_PLATE: f64 = 0.2;
 /// Most elements across the contact radius: 0.01 % of the force with springs and the whole oscillation.
 const MAX_ACROSS: f64 = 45.0;
 /// Share of the tolerance at finite strain on one mesh: contact time and pressure of soft balls on walls have twice the
@@ -135,10 +138,11 @@ impl MeshRule {
             false => (across - ZERO_OF_OSCILLATION).ceil() + ZERO_OF_OSCILLATION,
         };
         let error_on_finest_mesh = error / (TOLERANCE_SHARE_OF_MESH * MAX_ACROSS * MAX_ACROSS);
+        let of_plate = if estimate.bends && estimate.flow.is_none() { MASS_ON_PLATE } else { 1.0 };
+        let mass = MASS_OVER_TOLERANCE * tolerance.max(error_on_finest_mesh);
         Self {
             across,
-            mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(error_on_finest_mesh))
-                .min(MAX_MOVED_MASS),
+            mass_scaling: of_plate * mass.min(MAX_MOVED_MASS),
             error_on_finest_mesh: (asked_for > MAX_ACROSS).then_some(error_on_finest_mesh),
             is_for_tolerance: for_tolerance > MAX_ACROSS,
             limiting_quantity,

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use fem_case::{ModelChoice, Scene, Shape};
+use fem_case::{ModelChoice, PlateSupport, Scene, Shape};
 use fem_explicit::n_states;
 use fem_material::engineering::show;
 use fem_mesh::MeshError;
@@ -64,9 +64,12 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
             Shape::Sphere { mesh: Some(_), .. } | Shape::Rigid { .. } | Shape::Wall => None,
         };
         if let Some((n, material)) = made {
+            let is_bonded = body.plate().is_some_and(|plate| plate.support == PlateSupport::Bonded);
             let n = n.map_err(|error| match error {
-                MeshError::TooLarge(_) => blame_growth(scene, mesh_rejection(&error, side)),
-                _ => mesh_rejection(&error, side),
+                MeshError::TooLarge(_) => {
+                    blame_growth(scene, mesh_rejection(&error, side, is_bonded))
+                }
+                _ => mesh_rejection(&error, side, is_bonded),
             })? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;

@@ -41,6 +41,11 @@ impl MeshSource {
         }
     }
 
+    /// Returns whether the mesh is that of a bonded plate.
+    pub fn is_bonded(&self) -> bool {
+        matches!(self, Self::Plate(plate) if plate.is_bonded)
+    }
+
     /// Builds the mesh of the lower body (0) or the upper one (1).
     ///
     /// # Errors
@@ -117,11 +122,17 @@ pub(crate) fn graded_plate(
 }
 
 /// Returns the rejection of a mesh of the lower (0) or upper (1) body that cannot be generated, with the key that causes it.
-pub(crate) fn mesh_rejection(error: &MeshError, side: usize) -> Rejection {
+/// `is_bonded` says whether it is a bonded plate.
+pub(crate) fn mesh_rejection(error: &MeshError, side: usize, is_bonded: bool) -> Rejection {
     let of_plate =
         |key: &str| Rejection::new(format!("body.{side}.plate.{key}"), error.to_string());
     let key = match error {
-        MeshError::ThinPlate { .. } => return of_plate("thickness").with_help("use model ting"),
+        MeshError::ThinPlate { .. } => {
+            return of_plate("thickness").with_help(match is_bonded {
+                true => "no model computes a thinner bonded plate; at a lower speed or with a smaller body the contact is smaller",
+                false => "use model ting",
+            });
+        }
         MeshError::NarrowPlate { radius, least } => {
             let [diameter, least] = [radius, least].map(|radius| show(2.0 * radius, "m"));
             let message = format!(

@@ -6,7 +6,6 @@ mod input_uncertainty;
 mod measured;
 mod relaxation_band;
 pub(crate) mod stop_advice;
-pub(crate) mod stress;
 mod uncertainty;
 
 #[cfg(feature = "files")]

@@ -144,7 +144,7 @@ fn write_snapshot(
         let velocities = pad_vectors(fields.velocity.as_flattened());
         velocity.extend(velocities.into_iter().map(|value| value as f32));
         pressure.extend(contact_pressure(snapshot, side, mesh));
-        let stress = recovery.stress(material, fields);
+        let stress = recovery.stress(material, fields, Some(&snapshot.contact));
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
         let none = [0.0; 2];
@@ -193,16 +193,10 @@ fn contact_pressure(snapshot: &Snapshot, side: usize, mesh: &SphereMesh) -> Vec<
         let node = node as usize;
         let moved = if is_moved { snapshot.bodies[side].displacement[node][0] } else { 0.0 };
         let radius = mesh.nodes()[node][0] + moved;
-        let outer = places.partition_point(|place| place.radius < radius);
-        let Some(end) = places.get(outer) else { break };
-        let pressure = match outer.checked_sub(1).map(|inner| &places[inner]) {
-            Some(start) => {
-                let share = (radius - start.radius) / (end.radius - start.radius);
-                start.pressure + share * (end.pressure - start.pressure)
-            }
-            None => end.pressure,
-        };
-        pressures[node] = pressure as f32;
+        if places.last().is_none_or(|last| last.radius < radius) {
+            break;
+        }
+        pressures[node] = snapshot.contact.pressure_at(radius) as f32;
     }
     pressures
 }

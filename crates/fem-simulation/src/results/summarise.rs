@@ -1,13 +1,16 @@
 //! Builds the summary of a collision.
 
-use fem_collision::{Account, Collision, EnergyLedger, RestState};
+use fem_collision::{
+    Account, Approach, BalanceSide, Bounce, Collision, Ending, EnergyLedger, QuantityOfInterest,
+    RestState,
+};
 use fem_laws::ImpactQuantities;
 
 use super::dent::{DentSummary, dents};
 use super::energy::{Accounts, Energy, energy_key};
 use super::measured::MeasuredSummary;
 use super::summary::{
-    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, PlateSummary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PlateSummary,
     Quantities, RestSummary, StatusSummary, Summary,
 };
 use super::uncertainty::uncertainty;
@@ -66,13 +69,14 @@ impl Summary {
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),
             elastic_null: errors.elastic_null,
+            stress_error: errors.stress_error,
             measured_restitution: measured_restitution(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(simulation, collision, &mut numbers),
             momentum_residual_relative: numbers
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
-            bounces: bounces(simulation, collision, &mut numbers),
+            bounces: bounces(simulation, collision, errors, &mut numbers),
             adhesion: adhesion(simulation, collision, &mut numbers),
             plate: plate(simulation, collision, &mut numbers),
             relaxation_coverage: least_coverage(
@@ -218,20 +222,24 @@ fn plate_energy(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     if plate.elements.is_none() || collision.energies.get(Account::Plate).is_some() {
         return None;
     }
-    let energy = |account| collision.energies.get(account).unwrap_or(0.0);
-    let whole =
-        [Account::Kinetic, Account::Strain, Account::Contact].map(energy).iter().sum::<f64>();
-    let of_ball = 0.5 * ball.mass? * ball.velocity_after?.powi(2);
-    Some(whole - of_ball - ball.vibration_energy.unwrap_or(0.0))
+    let held = collision.energies.total(BalanceSide::Held)?;
+    // A landing speed has the potential energy.
+    let landing = |bounce: &Bounce| bounce.restitution * bounce.speed_before;
+    let speed = collision.bounces.last().map(landing).or(ball.velocity_after)?;
+    let inner = [ball.vibration_energy, ball.locked_in].into_iter().flatten().sum::<f64>();
+    Some(held - 0.5 * ball.mass? * speed.powi(2) - inner)
 }
 
 /// Returns the contacts of a case with gravity.
 fn bounces(
     simulation: &Simulation,
     collision: &Collision,
+    errors: &ErrorEstimate,
     numbers: &mut Numbers,
 ) -> Option<Vec<BounceSummary>> {
     simulation.case().scene().gravity()?;
+    let bars = collision.bounces.iter().take(MAX_BARS_OF_BOUNCES);
+    let bars: Vec<Parts> = bars.map(|bounce| bar_of(simulation, bounce, errors)).collect();
     let contacts = collision.bounces.iter().enumerate().map(|(k, bounce)| {
         let mut number = |key: &str, value: Option<f64>| {
             numbers.finite_if_any(&format!("bounces.{k}.{key}"), value)
@@ -239,12 +247,34 @@ fn bounces(
         BounceSummary {
             speed_before_m_s: number("speed_before_m_s", Some(bounce.speed_before)),
             restitution: number("restitution", Some(bounce.restitution)),
+            restitution_uncertainty: bars.get(k).copied().unwrap_or_default(),
             contact_time_s: number("contact_time_s", bounce.contact_time),
             peak_force_n: number("peak_force_n", bounce.peak_force),
             time_s: number("time_s", Some(bounce.time)),
         }
     });
     Some(contacts.collect())
+}
+
+/// Number of contacts of a bouncing ball that have error bars.
+const MAX_BARS_OF_BOUNCES: usize = 20;
+
+/// Returns the parts of the error bar of the restitution of one contact: the discretisation error of the first one, and the
+/// errors by inputs and neglected effects at its own speed.
+fn bar_of(simulation: &Simulation, bounce: &Bounce, errors: &ErrorEstimate) -> Parts {
+    let Ok(approach) = Approach::new([0.0, -bounce.speed_before], 0.0) else {
+        return Parts::default();
+    };
+    let contact = Collision {
+        restitution: Some(bounce.restitution),
+        contact_time: bounce.contact_time,
+        peak_force: bounce.peak_force,
+        ..Collision::empty(approach, Ending::Parted)
+    };
+    let values = quantities(&contact, &mut Numbers { not_finite: Vec::new() });
+    let effects = effects(simulation, &contact, &errors.decisions);
+    uncertainty(simulation, &contact, errors, &values, &effects)
+        .parts(QuantityOfInterest::Restitution)
 }
 
 /// Returns the dents of bodies that flowed.

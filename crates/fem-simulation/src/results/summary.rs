@@ -8,7 +8,7 @@ use super::dent::DentSummary;
 use super::energy::Energy;
 use super::measured::MeasuredSummary;
 use crate::effects::{EffectDecision, NeglectError};
-use crate::error::ElasticNull;
+use crate::error::{ElasticNull, StressError};
 use crate::models::ModelCandidate;
 use crate::models::stepper::RefinementLevel;
 
@@ -29,6 +29,8 @@ pub struct Summary {
     pub radius_and_pressure: &'static str,
     /// Loss of a relaxing run by mesh and settings, with relaxation off.
     pub elastic_null: Option<ElasticNull>,
+    /// Error of the recovered stress near the contact at the largest approach, relative to that of a reference run.
+    pub stress_error: Option<StressError>,
     /// Measured restitutions of the library between bodies of this material; `None` if it has none.
     pub measured_restitution: Option<Vec<MeasuredSummary>>,
     /// Number of contact episodes, separated by openings.
@@ -230,7 +232,7 @@ impl Side {
     }
 }
 
-/// What a number of a result is.
+/// The status of a number: whether it is the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
@@ -294,6 +296,8 @@ pub struct BounceSummary {
     pub speed_before_m_s: Option<f64>,
     /// Relative velocity after the collision over that before.
     pub restitution: Option<f64>,
+    /// Parts of its error bar.
+    pub restitution_uncertainty: Parts,
     /// Time from the first to the last contact.
     pub contact_time_s: Option<f64>,
     /// Largest contact force.

@@ -1,11 +1,12 @@
 //! [`Simulation`]: a case joined with the model that computes it. It does not change after it is built.
 //!
 //! The modules that describe a simulation or its collision add methods: `error/refinement.rs` (the run within the
-//! tolerance), `error/refinement_cost_bound.rs`, `results/summarise.rs`, `results/diagnostics.rs` (warnings) and
-//! `results/stress.rs`.
+//! tolerance), `error/refinement_cost_bound.rs`, `results/summarise.rs`, `results/diagnostics.rs` (warnings).
+//! [`stress`] has the stress fields.
 
 pub(crate) mod checkpoint;
 pub(crate) mod identity;
+pub(crate) mod stress;
 
 use std::borrow::Cow;
 use std::sync::Arc;

@@ -108,7 +108,10 @@ impl Model {
     /// The law rejects a value or the speed, does not describe the collision, or cannot compute it to its end.
     pub fn impact(&self, values: &[f64], speed: f64) -> Result<Impact, LawError> {
         let mobility = match &self.plate {
-            Some(plate) => plate.mobility_in(&HertzImpact::new(&self.pair, speed)?)?,
+            // A contact that dents follows elements most closely on the thin plate.
+            Some(plate) => plate.mobility_in(&HertzImpact::new(&self.pair, speed)?)?.map(|thick| {
+                if self.family.is_elastic_plastic() { plate.thin_mobility() } else { thick }
+            }),
             None => None,
         };
         match (self.family.law(&self.pair, values), values) {

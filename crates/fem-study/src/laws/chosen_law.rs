@@ -45,10 +45,12 @@ fn optional_values(scene: &Scene, family: LawFamily) -> Vec<Known> {
     let set =
         loss.and_then(|loss| sets.iter().find(|set| set.iter().any(|(key, _)| *key == loss.key)));
     let is_optional = |key: &str| set.is_some_and(|set| set.contains(&(key, KeyNeed::Optional)));
-    let given = loss.map(|loss| (loss.key, loss.guess(scene.approach_speed())));
-    let law = LawInput { family, values: given.into_iter().collect() };
+    // Those of the case's own loss, if it has one.
+    let guess = loss.map(|loss| (loss.key, loss.guess(scene.approach_speed())));
+    let mut inputs = [Vec::new(), guess.into_iter().collect()].into_iter();
     let found = match parameters.iter().any(|parameter| is_optional(parameter.key)) {
-        true => Reduced::parameters_of(scene, &law).ok(),
+        true => inputs
+            .find_map(|values| Reduced::parameters_of(scene, &LawInput { family, values }).ok()),
         false => None,
     };
     let known = |(index, parameter): (usize, &LawParameter)| match &found {

@@ -9,7 +9,9 @@ use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use super::stored_fit::{RestitutionBand, StoredFit};
 use crate::measured::{DataError, Restitutions};
-use fem_simulation::{Reduced, bounds_of_closed_forms, flowing_impact, restitution_with_adhesion};
+use fem_simulation::{
+    Reduced, bounds_of_closed_forms, mean_pressure_impact, restitution_with_adhesion,
+};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
@@ -121,13 +123,9 @@ impl ImpactCurve {
         let mut scatter = 0.0f64;
         let points = speeds.iter().map(|&speed| {
             let hertz = HertzImpact::new(&pair, speed)?;
-            let flowing = flowing_impact(scene, &hertz, None);
-            let impact = match flowing {
-                Some(impact) => impact.quantities,
-                None => ImpactQuantities::from(&hertz),
-            };
-            let error =
-                flowing.map_or(0.0, |impact| impact.errors[0] * impact.quantities.restitution);
+            let flowing = mean_pressure_impact(scene, &hertz);
+            let impact = flowing.map_or(ImpactQuantities::from(&hertz), |it| it.quantities);
+            let error = flowing.map_or(0.0, |it| it.errors[0] * it.quantities.restitution);
             let relaxed = match &relaxing {
                 Some(reduced) => reduced.impact(speed)?.restitution,
                 None => 1.0,
@@ -135,7 +133,8 @@ impl ImpactCurve {
             scatter = scatter.max(error + 0.5 * (1.0 - relaxed) * impact.restitution);
             let restitution = restitution_with_adhesion(scene, speed, relaxed * impact.restitution);
             let point = Point::new(speed, restitution);
-            Ok(Point { contact_time: Some(impact.contact_time), ..point })
+            let contact_time = Some(impact.contact_time).filter(|time| time.is_finite());
+            Ok(Point { contact_time, ..point })
         });
         let points = points.collect::<Result<_, FitError>>()?;
         let curve = Self::of(&pair, points)?;

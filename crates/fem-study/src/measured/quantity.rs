@@ -115,6 +115,7 @@ pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
             let share: f64 = share.trim().parse().map_err(|_| wrong(kind, uncertainty))?;
             value.abs() * share * 1e-2
         }
+        None if uncertainty.contains('%') => return Err(wrong(kind, text)),
         None => parse(kind, uncertainty)?,
     };
     if uncertainty < 0.0 {

@@ -19,7 +19,7 @@
 //! and the unsteadiness of the wake are neglected.
 
 /// Density of dry air at 20 °C and 101 325 Pa, kg/m³.
-const AIR_DENSITY: f64 = 1.204;
+pub(super) const AIR_DENSITY: f64 = 1.204;
 /// Viscosity of air at 20 °C, Pa·s.
 const AIR_VISCOSITY: f64 = 1.81e-5;
 /// Intervals of the integrals over the speed (Simpson's rule).
@@ -208,6 +208,9 @@ impl FreeFlight {
             let up = self.gravity + self.deceleration(launch);
             let launch_slope = up / (1.0 + launch / landing);
             let change = (time - rise - fall) * launch_slope;
+            if !change.is_finite() {
+                return None;
+            }
             if change.abs() <= 1e-12 * launch {
                 let down = self.gravity - self.deceleration(landing);
                 let landing_slope = launch_slope * launch * down / (landing * up);

@@ -3,7 +3,7 @@
 use crate::fit::cradle::{Measured, STANDARD_GRAVITY};
 use crate::measured::DataError;
 
-use super::free_flight::{Departure, Flight, FreeFlight};
+use super::free_flight::{AIR_DENSITY, Departure, Flight, FreeFlight};
 
 /// Relative standard uncertainty of the drag coefficient of a smooth sphere at rest in its wake.
 const DRAG_UNCERTAINTY: f64 = 0.1;
@@ -46,7 +46,7 @@ impl Rig {
     /// Checks that all values are in their range; messages name the record `name`.
     ///
     /// # Errors
-    /// A value is not positive, or the air drag lacks the diameter or the density.
+    /// A value is not positive, the air drag lacks the diameter or the density, or the ball is not heavier than air.
     pub fn check(&self, name: &str) -> Result<(), DataError> {
         let positive = [
             ("gravity", self.gravity),
@@ -85,6 +85,13 @@ impl Rig {
         if self.diameter.is_some() != self.density.is_some() {
             let message = "air drag needs the diameter and the density of the ball";
             let help = "give both, such as --diameter '10 mm' --density '7800 kg/m^3', or neither";
+            return Err(DataError::new(name, message).with_help(help));
+        }
+        if let Some(density) = self.density.map(|it| it.value).filter(|it| *it <= AIR_DENSITY) {
+            let message = format!(
+                "a ball of {density:?} kg/m³ does not fall in air, which has {AIR_DENSITY} kg/m³"
+            );
+            let help = "--density is that of the ball, such as '7800 kg/m^3'";
             return Err(DataError::new(name, message).with_help(help));
         }
         Ok(())

@@ -56,8 +56,10 @@ pub struct FoundRelaxation {
     pub table: ModulusTable,
     /// The series through them.
     pub series: FittedSeries,
-    /// The points at the reference temperature, in the order of the table.
+    /// The points at the reference temperature, in the order of the table, without those that are left out.
     pub points: Vec<ModulusPoint>,
+    /// Standard uncertainty of ln a_T of each point.
+    shift_uncertainties: Vec<f64>,
     /// The shifts of a table of several temperatures.
     pub superposition: Option<Superposition>,
     /// Root mean square of relative residuals of a series for each temperature alone.
@@ -89,8 +91,9 @@ impl FoundRelaxation {
         let superposition = superposition.transpose()?;
         let points = match &superposition {
             Some(superposition) => superposition.reduced(kind, &table.points),
-            None => table.points.clone(),
+            None => table.points.iter().map(|point| (*point, 0.0)).collect(),
         };
+        let (points, shift_uncertainties): (Vec<_>, Vec<_>) = points.into_iter().unzip();
         let temperature = superposition.as_ref().map(Superposition::reference_temperature);
         let is_known = table.points.iter().any(|point| point.temperature.is_some());
         let temperature = temperature.or(is_known.then_some(blocks[0].temperature));
@@ -102,7 +105,16 @@ impl FoundRelaxation {
             return Err(error.with_help("leave relaxation out of the material"));
         }
         let bulk_modulus = settings.bulk_modulus;
-        Ok(Self { table, series, points, superposition, scatter, temperature, bulk_modulus })
+        Ok(Self {
+            table,
+            series,
+            points,
+            shift_uncertainties,
+            superposition,
+            scatter,
+            temperature,
+            bulk_modulus,
+        })
     }
 
     /// Returns the modulus that was measured.
@@ -139,14 +151,9 @@ impl FoundRelaxation {
     /// Returns frequencies at the reference temperature (Hz), one per measured decade, with the standard uncertainty of the loss modulus over
     /// its value: by the scatter of the moduli, and by the uncertainty of the shift of each point. Values are root mean squares over a decade.
     pub fn loss_uncertainty(&self) -> Vec<(f64, f64)> {
-        let mut shifts = vec![0.0; self.points.len()];
-        for block in self.superposition.iter().flat_map(|found| &found.blocks) {
-            for k in &block.points {
-                shifts[*k] = block.shift_uncertainty;
-            }
-        }
         let mut decades: BTreeMap<i32, Vec<[f64; 2]>> = BTreeMap::new();
-        let points = self.points.iter().zip(&self.series.loss_uncertainties).zip(shifts);
+        let points =
+            self.points.iter().zip(&self.series.loss_uncertainties).zip(&self.shift_uncertainties);
         for ((point, by_scatter), shift) in points {
             let [at, _] = band(self.table.kind, std::slice::from_ref(point));
             let both = by_scatter.hypot(self.series.loss_slope(TAU * at) * shift);
@@ -172,6 +179,14 @@ impl FoundRelaxation {
         let mut warnings = Vec::new();
         if !self.table.unread.is_empty() {
             warnings.push(format!("columns not read: {}", self.table.unread.join(", ")));
+        }
+        if let Some(found) = self.superposition.as_ref().filter(|found| !found.left_out.is_empty())
+        {
+            let names: Vec<String> = found.left_out.iter().map(|kelvin| celsius(*kelvin)).collect();
+            warnings.push(format!(
+                "the moduli at {} do not determine their shifts, since they hardly depend on the frequency: they are left out",
+                names.join(", ")
+            ));
         }
         if !self.table.modulus_is_named {
             warnings.push(
@@ -316,11 +331,19 @@ fn superposed(
         return Err(DataError::new(&table.name, message).with_help(help));
     }
     let has_vertical = settings.has_vertical_shift;
-    Superposition::of(table.kind, &table.points, blocks, reference, has_vertical).map_err(|k| {
+    let found = Superposition::of(table.kind, &table.points, blocks, reference, has_vertical);
+    let found = found.map_err(|k| {
         let message = format!("the moduli at {} and {} do not overlap", names[k], names[k + 1]);
         let help = "superposition needs steps of temperature so small that neighbouring blocks share moduli";
         DataError::new(&table.name, message).with_help(help)
-    })
+    })?;
+    if found.blocks.len() < 2 {
+        let message =
+            format!("no other moduli determine their shift against those at {}", names[reference]);
+        let help = "choose a reference temperature at which the moduli depend on the frequency";
+        return Err(DataError::new(&table.name, message).with_help(help));
+    }
+    Ok(found)
 }
 
 /// Returns the root mean square of the residuals of a series for each block, per degree of freedom.
@@ -395,15 +418,9 @@ fn check_block(table: &ModulusTable, block: &Block) -> Result<(), DataError> {
     if table.kind == TestKind::Relaxation {
         sorted.reverse();
     }
-    let half = sorted.len() / PER_MEDIAN / 2;
-    let median = |k: usize| {
-        let around = &sorted[k.saturating_sub(half)..(k + half + 1).min(sorted.len())];
-        let mut around: Vec<f64> = around.iter().map(|point| point.storage).collect();
-        around.sort_by(f64::total_cmp);
-        ModulusPoint { storage: around[around.len() / 2], ..*sorted[k] }
-    };
-    let mut highest = median(0);
-    for point in (0..sorted.len()).map(median) {
+    let medians = running_medians(&sorted, sorted.len() / PER_MEDIAN / 2);
+    let Some(mut highest) = medians.first().copied() else { return Ok(()) };
+    for point in medians {
         if point.storage > highest.storage {
             highest = point;
         } else if point.storage < (1.0 - MAX_FALL) * highest.storage {
@@ -420,4 +437,23 @@ fn check_block(table: &ModulusTable, block: &Block) -> Result<(), DataError> {
         }
     }
     Ok(())
+}
+
+/// Returns the points with the medians of their storage moduli over so many neighbours on either side, fewer at the ends.
+fn running_medians(points: &[&ModulusPoint], half: usize) -> Vec<ModulusPoint> {
+    let place = |window: &[f64], value: f64| window.partition_point(|other| *other < value);
+    let mut window: Vec<f64> = Vec::new();
+    let mut end = 0;
+    let median = |(k, point): (usize, &&ModulusPoint)| {
+        while end < (k + half + 1).min(points.len()) {
+            let value = points[end].storage;
+            window.insert(place(&window, value), value);
+            end += 1;
+        }
+        if k > half {
+            window.remove(place(&window, points[k - half - 1].storage));
+        }
+        ModulusPoint { storage: window[window.len() / 2], ..**point }
+    };
+    points.iter().enumerate().map(median).collect()
 }

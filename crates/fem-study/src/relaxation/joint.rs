@@ -51,8 +51,15 @@ pub(super) fn vary_times(
 ) -> impl Iterator<Item = (f64, f64)> {
     let points = points.to_vec();
     let shift_of = vec![None; points.len()];
-    let joint =
-        Joint { kind, points, shift_of, moving: vec![], blocks: &mut [], has_vertical: false };
+    let joint = Joint {
+        kind,
+        points,
+        shift_of,
+        moving: vec![],
+        reference: 0,
+        blocks: &mut [],
+        has_vertical: false,
+    };
     let whitening = Matrix2::from_diagonal(&nalgebra::Vector2::new(1.0, loss_scale.recip()));
     let problem = Problem { joint: &joint, times, reach, whitening, is_first: false };
     let (found, solved) = problem.minimise(times.iter().map(|time| time.ln()).collect());
@@ -66,7 +73,9 @@ pub(super) struct Joint<'a> {
     points: Vec<ModulusPoint>,
     /// The parameter of the shift of each point; none of the reference.
     shift_of: Vec<Option<usize>>,
-    moving: Vec<usize>,
+    /// The blocks that are shifted, by rising temperature.
+    pub(super) moving: Vec<usize>,
+    pub(super) reference: usize,
     blocks: &'a mut [Block],
     has_vertical: bool,
 }
@@ -105,11 +114,12 @@ impl<'a> Joint<'a> {
             blocks[block].points.iter().map(move |k| (points[*k], block)).collect::<Vec<_>>()
         });
         let (points, shift_of) = all.map(|(point, block)| (point, of_block(&block))).unzip();
-        Self { kind, points, shift_of, moving, blocks, has_vertical }
+        Self { kind, points, shift_of, moving, reference, blocks, has_vertical }
     }
 
-    /// Refines the shifts of the blocks and returns the covariance of ln a_T of all but the reference.
-    pub fn refine(&mut self) -> DMatrix<f64> {
+    /// Refines the shifts of the blocks, and returns the covariance of ln a_T of all but the reference and which of these shifts the
+    /// moduli determine.
+    pub fn refine(&mut self) -> (DMatrix<f64>, Vec<bool>) {
         let n = self.moving.len();
         let n_shifts = n * (1 + usize::from(self.has_vertical));
         let at = |k: usize| {
@@ -143,12 +153,28 @@ impl<'a> Joint<'a> {
             times = joined(all.iter().copied().zip(solved.moduli.iter().copied()));
             shifts.copy_from_slice(&found[..n_shifts]);
         }
+        let determined = self.determined(&shifts, &whitening);
         for (k, block) in self.moving.iter().enumerate() {
             let block = &mut self.blocks[*block];
             block.ln_shift = shifts[k];
             block.ln_vertical = shifts.get(n + k).copied().unwrap_or(0.0);
         }
-        covariance
+        (covariance, determined)
+    }
+
+    /// Returns the least misfit of a series on a grid with these shifts, and its degrees of freedom.
+    pub(super) fn misfit_on_grid(
+        &self,
+        shifts: &[f64],
+        whitening: &Matrix2<f64>,
+        density: f64,
+    ) -> (f64, f64) {
+        let times = grid(self.kind, &self.reduced(shifts), density, 0.0);
+        let (whitening, reach) = (*whitening, f64::INFINITY);
+        let problem = Problem { joint: self, times: &times, reach, whitening, is_first: false };
+        let solved = problem.solve(shifts);
+        let n_parameters = solved.passive().ncols() + shifts.len();
+        (solved.misfit(), solved.residuals.len().saturating_sub(n_parameters).max(1) as f64)
     }
 
     /// Returns the points at the reference temperature.

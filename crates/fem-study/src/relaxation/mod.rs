@@ -6,6 +6,7 @@
 //!                                        └─ stored: relaxation.json and the table of a case
 //! ```
 
+mod determination;
 mod found;
 mod joint;
 mod series;

@@ -17,7 +17,8 @@
 //! decade by 0.08 %: data that are better than that ask for more than one.
 //!
 //! Limits: moduli of terms faster than the highest frequency are determined by its loss modulus alone, those of terms slower
-//! than the lowest by its storage modulus.
+//! than the lowest by its storage modulus. The uncertainties of the glassy and the rubbery modulus allow for terms up to a decade beyond
+//! the frequencies.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -33,6 +34,8 @@ use super::joint::vary_times;
 const PHASE_RESOLUTION: f64 = 0.01;
 /// Grids reach beyond the data by this factor of time.
 const MARGIN: f64 = 3.0;
+/// Factor of time beyond the data of terms that the glassy and the rubbery modulus may have.
+const BEYOND: f64 = 10.0;
 /// Terms per decade of the grids.
 const DENSITIES: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
 /// Positions of a grid, in shares of its spacing.
@@ -501,6 +504,32 @@ impl Observations {
         self.rows.iter().filter(|row| row.part == 0).map(rate)
     }
 
+    /// Returns the standard uncertainties of the equilibrium modulus and of the sum of all moduli, Pa: the larger ones of those with
+    /// all times free and of those with a term more on either side of the frequencies. Such a term has about the loss of one that is
+    /// nearer, but not its modulus.
+    fn uncertainties_of_ends(&self, best: &Candidate, own: Option<&DMatrix<f64>>) -> [f64; 2] {
+        let n = best.times.len();
+        let of_ends = |covariance: &DMatrix<f64>, n: usize| {
+            let all = covariance.view((0, 0), (n + 1, n + 1)).sum();
+            [covariance[(n, n)], all].map(|variance| variance.max(0.0).sqrt())
+        };
+        let own = own.map_or([f64::NAN; 2], |covariance| of_ends(covariance, n));
+        let times: Vec<f64> = self.rates().map(f64::recip).collect();
+        let mut wider = Candidate { per_term: 1, ..best.clone() };
+        if self.kind == TestKind::Relaxation || wider.n_parameters() + 2 >= self.rows.len() {
+            return own;
+        }
+        let first = times.iter().copied().fold(f64::INFINITY, f64::min) / BEYOND;
+        let last = times.iter().copied().fold(0.0, f64::max) * BEYOND;
+        for (at, time) in [(0, first), (n + 1, last)] {
+            wider.times.insert(at, time);
+            wider.moduli.insert(at, 0.0);
+        }
+        let Some(covariance) = self.covariance(&wider) else { return own };
+        let wider = of_ends(&covariance, n + 2);
+        [0, 1].map(|k: usize| own[k].max(wider[k]))
+    }
+
     fn series(&self, best: &Candidate) -> FittedSeries {
         let n = best.times.len();
         // The data determine the times only so far as well, wherever the grid is.
@@ -510,9 +539,8 @@ impl Observations {
         let uncertainty = |k: usize| {
             covariance.as_ref().map_or(f64::NAN, |matrix| matrix[(k, k)].max(0.0).sqrt())
         };
-        let all = covariance
-            .as_ref()
-            .map_or(f64::NAN, |matrix| matrix.view((0, 0), (n + 1, n + 1)).sum().max(0.0).sqrt());
+        let [equilibrium_uncertainty, instantaneous_uncertainty] =
+            self.uncertainties_of_ends(best, covariance.as_ref());
         let terms = (0..n).map(|k| FittedTerm {
             relaxation_time: best.times[k],
             modulus: best.moduli[k],
@@ -529,9 +557,9 @@ impl Observations {
                 best.relative_uncertainty(covariance, rate, 0)
             }),
             equilibrium_modulus: best.moduli[n],
-            equilibrium_uncertainty: uncertainty(n),
+            equilibrium_uncertainty,
             terms: terms.collect(),
-            instantaneous_uncertainty: all,
+            instantaneous_uncertainty,
             rms: (misfit / self.rows.len() as f64).sqrt(),
         }
     }

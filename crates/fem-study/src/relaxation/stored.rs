@@ -104,7 +104,7 @@ impl FoundRelaxation {
             "modulus": self.modulus().key(),
             "acts_on": self.acts_on(),
             "bulk_modulus_pa": self.bulk_modulus,
-            "points": self.table.points.len(),
+            "points": self.points.len(),
             "temperature_k": self.temperature,
             "band_hz": self.band(),
             "instantaneous_modulus_pa": whole,

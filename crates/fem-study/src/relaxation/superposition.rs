@@ -7,6 +7,8 @@
 //!
 //! A vertical factor b_T of both moduli may be found with each shift.
 //!
+//! Blocks whose shifts the moduli do not determine (`determination`) are left out.
+//!
 //! Limits: where moduli hardly depend on the frequency a shift is uncertain, and so are those of all blocks behind it.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -60,8 +62,10 @@ pub struct FittedShift {
 /// Isothermal blocks with their shifts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Superposition {
-    /// Blocks by rising temperature.
+    /// Blocks with a shift, by rising temperature.
     pub blocks: Vec<Block>,
+    /// Temperatures (K) of the blocks whose shifts the moduli do not determine, and which are left out.
+    pub left_out: Vec<f64>,
     /// Index of the reference.
     pub reference: usize,
     /// The law of Williams, Landel and Ferry, if there are at least three blocks and it fits.
@@ -98,7 +102,8 @@ impl Superposition {
         reference: usize,
         has_vertical: bool,
     ) -> Result<Self, usize> {
-        let mut found = Self { blocks, reference, wlf: None, arrhenius: None };
+        let mut found =
+            Self { blocks, left_out: Vec::new(), reference, wlf: None, arrhenius: None };
         let steps = found.steps(kind, points)?;
         for k in reference + 1..found.blocks.len() {
             found.blocks[k].ln_shift = found.blocks[k - 1].ln_shift + steps[k - 1];
@@ -106,9 +111,16 @@ impl Superposition {
         for k in (0..reference).rev() {
             found.blocks[k].ln_shift = found.blocks[k + 1].ln_shift - steps[k];
         }
-        let covariance =
-            Joint::new(kind, points, &mut found.blocks, reference, has_vertical).refine();
-        let moving = (0..found.blocks.len()).filter(|block| *block != reference);
+        let covariance = loop {
+            let reference = found.reference;
+            let (covariance, determined) =
+                Joint::new(kind, points, &mut found.blocks, reference, has_vertical).refine();
+            if !determined.contains(&false) {
+                break covariance;
+            }
+            found.leave_out(&determined);
+        };
+        let moving = (0..found.blocks.len()).filter(|block| *block != found.reference);
         for (k, block) in moving.enumerate() {
             found.blocks[block].shift_uncertainty = covariance[(k, k)].sqrt();
         }
@@ -116,15 +128,30 @@ impl Superposition {
         Ok(found)
     }
 
-    /// Returns the points at the reference temperature, in their order.
-    pub fn reduced(&self, kind: TestKind, points: &[ModulusPoint]) -> Vec<ModulusPoint> {
-        let mut all = points.to_vec();
-        for block in &self.blocks {
-            for k in &block.points {
-                all[*k] = reduced(kind, &points[*k], block.ln_shift, block.ln_vertical);
-            }
-        }
-        all
+    /// Removes the blocks whose shifts are not determined, of all but the reference.
+    fn leave_out(&mut self, determined: &[bool]) {
+        let mut is_kept = determined.to_vec();
+        is_kept.insert(self.reference, true);
+        self.reference = is_kept[..self.reference].iter().filter(|kept| **kept).count();
+        let blocks = std::mem::take(&mut self.blocks).into_iter().zip(is_kept);
+        let (kept, out): (Vec<_>, Vec<_>) = blocks.partition(|(_, kept)| *kept);
+        self.blocks = kept.into_iter().map(|(block, _)| block).collect();
+        self.left_out.extend(out.into_iter().map(|(block, _)| block.temperature));
+        self.left_out.sort_by(f64::total_cmp);
+    }
+
+    /// Returns the points of the blocks at the reference temperature, in their order, with the uncertainty of ln a_T of each.
+    pub fn reduced(&self, kind: TestKind, points: &[ModulusPoint]) -> Vec<(ModulusPoint, f64)> {
+        let of_block = |block: &Block| {
+            let Block { ln_shift, ln_vertical, shift_uncertainty, .. } = *block;
+            let of_point = move |k: &usize| {
+                (*k, (reduced(kind, &points[*k], ln_shift, ln_vertical), shift_uncertainty))
+            };
+            block.points.iter().map(of_point).collect::<Vec<_>>()
+        };
+        let mut all: Vec<_> = self.blocks.iter().flat_map(of_block).collect();
+        all.sort_by_key(|(k, _)| *k);
+        all.into_iter().map(|(_, point)| point).collect()
     }
 
     /// Returns the temperature of the reference, K.
@@ -148,6 +175,9 @@ impl Superposition {
     }
 
     fn fit_laws(&mut self, covariance: DMatrix<f64>) {
+        if self.blocks.len() < 2 {
+            return;
+        }
         let reference = self.reference_temperature();
         let moving: Vec<usize> =
             (0..self.blocks.len()).filter(|block| *block != self.reference).collect();

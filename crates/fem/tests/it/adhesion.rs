@@ -182,3 +182,53 @@ fn bodies_that_stick_move_as_one() {
         assert!(found.energies.total(BalanceSide::Lost) > Some(0.9 * initial), "{model}");
     }
 }
+
+/// At half the sticking speed the bodies stick for certain with 0.1 J/m², and perhaps with 0.05 J/m². An uncertain work of adhesion that
+/// reaches the latter leaves the restitution open, and so does an uncertain surface energy.
+#[test]
+fn an_uncertain_work_of_adhesion_leaves_open_whether_bodies_stick() {
+    let bar = |set: &str| {
+        let summary =
+            summary_of(POLYSTYRENE, &["model.hertz={}", "body.1.approach_speed=0.07", set]);
+        assert_eq!(summary.collision.restitution, Some(0.0), "{set}");
+        let open = summary.warnings.join(" ").contains("may stay together");
+        (model_bar(&summary, QuantityOfInterest::Restitution).unwrap(), open)
+    };
+    let (sure, open) = bar("contact.work_of_adhesion='0.1 J/m^2'");
+    assert!(sure < 1e-3 && !open, "{sure}");
+    for set in [
+        "contact.work_of_adhesion='0.05 J/m^2'",
+        "contact.work_of_adhesion='0.1 ± 0.05 J/m^2'",
+        "material.polystyrene.surface_energy='50 ± 25 mJ/m^2'",
+    ] {
+        let (bar, open) = bar(set);
+        assert!(bar > 0.9 && open, "{set}: {bar}");
+    }
+}
+
+/// A ball of 0.2 mm loses Thornton and Ning's energy in each contact, (v_s/v)² of its own. The run without it bounces on.
+#[test]
+fn adhesion_of_later_contacts_is_told() {
+    let ball =
+        ["model.hertz={}", "gravity.acceleration='9.81 m/s^2'", "contact.work_of_adhesion=0.1"];
+    let warnings = |more: &[&str]| {
+        let set: Vec<&str> = ball.iter().chain(more).copied().collect();
+        summary_of(POLYSTYRENE, &set).warnings.join("\n")
+    };
+    // (v_s/v)² = 1/18 each at three times √2 the sticking speed.
+    let fast = ["body.1.approach_speed=0.6", "stop.bounces=30"];
+    let found = warnings(&fast);
+    assert!(found.contains("comes to rest in about 19 contacts"), "{found}");
+    assert!(!found.contains("the ball never rests,"), "{found}");
+    let found = warnings(&["body.1.approach_speed=0.6", "stop.bounces=5"]);
+    assert!(found.contains("in all 27."), "{found}");
+    // A ball that relaxes is slower from contact to contact.
+    let relaxing = "material.polystyrene.relaxation={acts_on='all',terms=[{weight=0.9,relaxation_time='30 ns'}]}";
+    let found =
+        warnings(&["body.1.approach_speed=1", "stop.bounces=30", relaxing, "model={ting={}}"]);
+    assert!(found.contains("is near the sticking speed of 141.3 mm/s"), "{found}");
+    assert!(
+        !warnings(&["body.1.approach_speed=60", "stop.bounces=3"])
+            .contains("adhesion takes energy")
+    );
+}

@@ -266,11 +266,12 @@ fn a_mesh_from_a_file_has_a_bar() {
 
 /// The reference runs need a counted number of factors: one for condensed bodies, with elements twice as long, and three
 /// for explicit elements, on their own mesh with springs and twice without, with the contact's edge at a node. Collisions
-/// of the same bodies share all but the last two, which depend on the contact radius.
+/// of the same bodies share all but the last two, which depend on the contact radius. One more, with the fields of the bodies,
+/// gives the error of the stress of a snapshot.
 #[test]
 fn bars_cost_a_counted_number_of_factors() {
     for (model, own, of_bars) in
-        [("model.condensed={}", 1, [1, 1, 1]), ("model.fem={}", 0, [3, 5, 7])]
+        [("model.condensed={}", 1, [1, 1, 1]), ("model.fem={}", 0, [4, 6, 8])]
     {
         let shared = SharedModels::default();
         for (speed, of_bars) in ["0.2", "0.19", "0.18"].into_iter().zip(of_bars) {

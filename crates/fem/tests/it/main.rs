@@ -22,6 +22,7 @@ mod gravity;
 mod half_space;
 mod inertia;
 mod laws;
+mod limits_of_validity;
 mod measured_data;
 mod public_interface;
 

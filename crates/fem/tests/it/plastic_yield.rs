@@ -179,10 +179,7 @@ const IMPACTS: [(f64, [f64; 5]); 4] = [
     (100.0, [0.5695, 0.98046, 0.75127, 1.1942, 1.4181]),
 ];
 
-/// The bounds of a model without flow hold for impacts of an elastic–perfectly plastic sphere on a rigid wall.
-#[test]
-fn bounds_hold_for_plastic_impacts() {
-    const BALL: &str = "
+const BALL: &str = "
 [material.metal]
 density = 1000
 youngs_modulus = 209.3e6
@@ -201,6 +198,10 @@ approach_speed = 1
 
 [model.hertz]
 ";
+
+/// The bounds of a model without flow hold for impacts of an elastic–perfectly plastic sphere on a rigid wall.
+#[test]
+fn bounds_hold_for_plastic_impacts() {
     let first = simulation_of(BALL, &[""; 0]).setup().estimate.hertz;
     let (modulus, yield_strength) = (first.pair().contact_modulus(), 1e6);
     assert!((modulus / yield_strength / 230.0 - 1.0).abs() < 1e-3, "{modulus}");
@@ -224,6 +225,41 @@ approach_speed = 1
                 None => quantity == QuantityOfInterest::ContactTime,
             };
             assert!(holds, "{over} v_y: {quantity:?} {computed}, plastic {plastic}");
+        }
+    }
+}
+
+/// The error of each law that dents covers its distance from elements, is of the size of that, and is there however the law is given
+/// its strength.
+#[test]
+fn laws_that_dent_carry_their_errors() {
+    let first = simulation_of(BALL, &[""; 0]).setup().estimate.hertz;
+    let yields_at = (1.61 * 1e6 / first.peak_pressure()).powf(2.5);
+    for (law, strength) in [
+        ("thornton", "yield_pressure='1.61 MPa'"),
+        ("johnson", "hardness='3 MPa'"),
+        ("jackson_green", "yield_strength='1 MPa'"),
+        ("brake", ""),
+        ("mdr", ""),
+        ("mean_pressure", ""),
+    ] {
+        for (over, of_hertz) in &IMPACTS[1..] {
+            let speed = format!("body.1.approach_speed={}", over * yields_at);
+            let model = format!("model={{ law={{ {law}={{ {strength} }} }} }}");
+            let simulation = simulation_of(BALL, &[speed, model]);
+            let summary = simulation.summary(&simulation.run(&mut ()));
+            let hertz = ImpactQuantities::from(&simulation.setup().estimate.hertz).in_order();
+            for k in 0..3 {
+                let quantity = QuantityOfInterest::ALL[k];
+                let bar = summary.uncertainty.parts(quantity).model.unwrap();
+                let elements = of_hertz[k] * hertz[k];
+                let error = (summary.collision.number(quantity).unwrap() - elements).abs();
+                // The law that stands for elements is within 3 % of them, and says so.
+                assert!(
+                    error <= bar && bar < error + 0.1 * elements,
+                    "{law} {over}: {quantity:?} {error} {bar}"
+                );
+            }
         }
     }
 }

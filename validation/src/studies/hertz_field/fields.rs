@@ -48,7 +48,7 @@ impl Fields {
         let u = displacements(run, snapshot);
         let springs = run.springs()?;
         let hertz = hertz_at_force(run, &u)?;
-        let stress = bodies[side].stress(&snapshot.bodies[side]);
+        let stress = bodies[side].stress(&snapshot.bodies[side], Some(&snapshot.contact));
         let poissons_ratio = material.instantaneous().poissons_ratio();
         let boundary = |profile: Profile| {
             let (nodes, along, end, component) = match profile {

@@ -260,15 +260,6 @@ impl<R: ElementResponse> FiniteStrainStress for FiniteStrain<R> {
         self.blocks.n_elements()
     }
 
-    fn add_energies_at_finite_strain(
-        &self,
-        motion: &Motion<'_>,
-        history: &[NodalField],
-        accounts: &mut Accounts,
-    ) {
-        self.add_energies(motion, history, accounts);
-    }
-
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
         let undeformed = vec![[0.0; 2]; bound.len()];
         let elements = (&self.blocks, &self.metrics, self.response.law());

@@ -100,9 +100,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let from_case = Some((&arguments.input, &case));
     let origin = arguments.restitutions.origin("calibrate", from_case, Some(&arguments.data));
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", origin)?;
-    output.write("relaxation.toml", found.relaxation_toml())?;
-    output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals())?;
-    output.write("calibrate.svg", picture)?;
+    output.write("relaxation.toml", found.relaxation_toml());
+    output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals());
+    output.write("calibrate.svg", picture);
     let numbers = found.numbers(&arguments.input.name(), warnings.clone());
     output.publish(&numbers, || calibration_text(&found, &warnings))
 }

@@ -108,8 +108,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             Some(trial.rise.value),
         ]
     });
-    output.write_table("cradle.csv", &header, rows)?;
-    output.write("cradle.svg", cradle_figure(&swings))?;
+    output.write_table("cradle.csv", &header, rows);
+    output.write("cradle.svg", cradle_figure(&swings));
     let [first, second] = cradle.masses;
     let numbers = json!({
         "data": path.display().to_string(),

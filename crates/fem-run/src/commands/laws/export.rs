@@ -74,12 +74,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(&case))?;
     for snippet in &snippets {
-        output.write(snippet.name, &snippet.text)?;
+        output.write(snippet.name, &snippet.text);
     }
     if let Some(band) = &fitted.curve.band {
-        output.write(BAND_FILE, band.csv())?;
+        output.write(BAND_FILE, band.csv());
     }
-    output.write("export.svg", export_figure(&fitted))?;
+    output.write("export.svg", export_figure(&fitted));
     output.publish(&fitted.numbers(&arguments.input.name(), &snippets), || {
         let mut text = export_text(&fitted, &snippets);
         text += &law_note(&fitted, arguments.data.is_some());
@@ -185,9 +185,9 @@ fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
     let (export, rows) = pairs(arguments, case)?;
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(case))?;
-    output.write("pairs.csv", pairs_csv(&rows)?)?;
+    output.write("pairs.csv", pairs_csv(&rows)?);
     for (name, text) in grain_snippets(&export.grains, &export.of_codes()) {
-        output.write(name, text)?;
+        output.write(name, text);
     }
     standard_output::warn(export.warnings());
     let numbers = pairs_json(&export, &arguments.input.name(), &rows)?;

@@ -30,7 +30,7 @@ impl From<LawFault> for Failure {
             LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
                 .with_help("leave it out, or fit it alone with --law"),
             LawFault::Bound(_) => Failure::bad_input(message).with_help(
-                "name measured values (--data lib:NAME or a file), or write --as-elastic to take it as it is",
+                "name measured values with --data, or write --as-elastic to take it as it is",
             ),
             LawFault::NoStandIn(error) => Failure::from(error).with_help(
                 "give a material a [material.NAME.relaxation] table, a law in [model], or \

@@ -153,14 +153,14 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let from_case = Some((&arguments.input, case));
     let origin = arguments.restitutions.origin("fit", from_case, Some(&arguments.data));
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", origin)?;
-    output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
+    output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals());
     if let Some(ranking) = ranking {
-        output.write("ranking.csv", ranking_csv(ranking))?;
+        output.write("ranking.csv", ranking_csv(ranking));
     }
-    output.write("fit.svg", fit_figure(fitted, ranking.as_ref()))?;
+    output.write("fit.svg", fit_figure(fitted, ranking.as_ref()));
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
-    output.write("histories.svg", histories)?;
+    output.write("histories.svg", histories);
     standard_output::warn(fitted.warnings());
     let next = next_steps(fitted, &arguments.input.name(), output.place());
     output.publish(&fitted.numbers(&arguments.input.name()), || {

@@ -68,6 +68,64 @@ fn incomplete_result_is_written_beside_an_older_result() {
     assert_eq!(place.list("runs/case.new"), ["contact.csv", "history.csv", "summary.json"]);
 }
 
+/// Commands with a result of their own print their answer, keep the numbers before the pictures, and leave an older result as it is.
+#[test]
+fn commands_on_a_full_disk_answer_and_keep_what_they_can() {
+    let data = |name: &str| {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../validation/data/");
+        format!("{folder}{name}.csv")
+    };
+    let law = ["--law", "kuwabara_kono", "--data"];
+    let series = ["--model=ting", "--terms=1", "--data"];
+    for (command, table, options, kept, answer) in [
+        ("measure", data("bounce_times"), vec![], Some(10), "12 restitutions"),
+        ("relaxation", data("dma_23_degc"), vec![], Some(10), "glassy modulus"),
+        ("fit", data("bridges_ice"), law.to_vec(), Some(20), "rms error"),
+        ("calibrate", data("bridges_ice"), series.to_vec(), Some(10), "rms"),
+        // Its numbers are the largest file.
+        ("export", "case.toml".to_string(), vec![], None, "lammps"),
+    ] {
+        let place = Place::new();
+        let json = format!("{command}.json");
+        let mut words = vec![command];
+        if matches!(command, "fit" | "calibrate") {
+            words.push("case.toml");
+        }
+        words.extend(options);
+        words.extend([table.as_str(), "--out", "result"]);
+        let ran = run_within(&place, 1, &words);
+        assert_eq!(ran.code, Some(1), "{command}: {}", ran.stderr);
+        ran.prints(format!("{answer}|Result: not written"));
+        ran.tells("cannot be written|nothing was kept");
+        assert!(!place.path("result").exists(), "{command}");
+        let Some(kept) = kept else { continue };
+        let ran = run_within(&place, kept, &words);
+        assert_eq!(ran.code, Some(1), "{command}: {}", ran.stderr);
+        ran.prints(format!("{answer}|Result: result"));
+        ran.tells(format!("cannot be written|kept: {json}"));
+        let numbers = place.json(&format!("result/{json}"));
+        let listed = numbers["files"].as_array().unwrap().len();
+        assert_eq!(listed, place.list("result").len(), "{command}");
+        place.succeed(&words[..]);
+        let whole = place.result("result");
+        assert!(whole.len() > listed, "{command}");
+        run_within(&place, kept, &words).prints("Result: result.new");
+        assert_eq!(place.result("result"), whole, "{command}");
+    }
+}
+
+/// Pages and pictures of results, and the copy of a table, fail like other files.
+#[test]
+fn pages_on_a_full_disk_are_an_error() {
+    let place = Place::new();
+    place.succeed("case.toml --out run");
+    for words in [["report", "run", "--out=page.html"], ["plot", "run", "--what=force"]] {
+        let ran = run_within(&place, 1, &words);
+        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+        ran.tells("is the disk full");
+    }
+}
+
 /// A reader that has gone away is no error; a stdout that cannot be written is one, and the result is kept.
 #[cfg(target_os = "linux")]
 #[test]

@@ -6,7 +6,7 @@ use fem_vtk::VtuFile;
 /// The quantities of interest, which `hertz` and `uncertainty` have too.
 const QUANTITIES: &str =
     "restitution contact_time_s peak_force_n max_approach_m max_contact_radius_m peak_pressure_pa";
-const OTHERS: &str = "estimate peak_force_raw_n radius_and_pressure elastic_null measured_restitution contact_episodes hertz energy \
+const OTHERS: &str = "status peak_force_raw_n radius_and_pressure elastic_null stress_error measured_restitution contact_episodes hertz energy \
     momentum_residual_relative bounces adhesion plate relaxation_coverage dent rest bodies time_step_s steps element_updates cost effects uncertainty coarser_meshes \
     models_considered warnings complete stopped_because program version numerics made_from source case";
 
@@ -23,6 +23,7 @@ fn result_has_the_documented_keys_and_files() {
     assert_eq!(keys(&summary), format!("{QUANTITIES} {OTHERS}"));
     for (object, expected) in [
         (&summary["hertz"], QUANTITIES),
+        (&summary["status"], QUANTITIES),
         (&summary["uncertainty"], QUANTITIES),
         (
             &summary["energy"],

@@ -306,7 +306,7 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
         .replace("[[body]]\nname = \"striker\"", "[material.other]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n\n[[body]]\nname = \"striker\""));
     let ran = elastic.fails(2, "export case.toml");
-    ran.tells("no body relaxes");
+    ran.tells("the restitution is a bound");
     assert_eq!(ran.stderr.matches("help: ").count(), 1, "{}", ran.stderr);
 }
 
@@ -429,10 +429,8 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
         ["export", "case.toml", "--materials", "glass,lib:steel", "--diameters", "2 mm,1 cm"];
     let ran = place.succeed((pairs, "--out all"));
     ran.prints("4 grains, 10 pairs");
-    // The warning says why steel loses nothing and what to do; glass relaxes.
-    ran.tells(
-        "warning: the loss of steel in an impact is not known and not included: e of its pairs",
-    );
+    // Steel flows, and glass relaxes: no loss is unknown.
+    assert!(!ran.stderr.contains("not known"), "{}", ran.stderr);
     let numbers = place.json("all/export.json");
     let rows = numbers["pairs"].as_array().unwrap();
     let table = place.text("all/pairs.csv");
@@ -444,8 +442,8 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
     assert_eq!(rows[1]["entries"]["lammps_viscoelastic_eta"], one["snippets"][1]["entries"]["eta"]);
     let of_steel = rows.last().unwrap();
     assert_eq!(
-        (&of_steel["first_material"], of_steel["restitution"].as_f64()),
-        (&"lib:steel".into(), Some(1.0))
+        (&of_steel["first_material"], of_steel["restitution"].as_f64() < Some(0.8)),
+        (&"lib:steel".into(), true)
     );
     for file in ["lammps_pairs.in", "liggghts_pairs.in", "mfix_pairs.dat"] {
         let text = place.text(format!("all/{file}"));

@@ -95,6 +95,7 @@ fn report_of_a_run_with_fields_has_all_sections() {
         "aria-label=\"The bodies before the collision, to scale\"",
         ">22.20 mm, 500.0 mm/s</text>",
         ">15.90 mm, at rest</text>",
+        "stress \u{b1} ",
     ] {
         assert!(page.contains(expected), "{expected}");
     }

@@ -7,11 +7,11 @@
 
 use fem_case::engineering::{number, show};
 use fem_case::{ModelChoice, Scene, WorkOfAdhesion};
-use fem_collision::QuantityOfInterest;
+use fem_collision::{Collision, QuantityOfInterest};
 use fem_laws::Adhesion;
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
-use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::{
     AdhesionEffect, Effect, FiniteStrain, MaterialLoss, PartnerWaves, Vibration, is_needed,
@@ -22,6 +22,8 @@ use crate::quantity_errors::QuantityErrors;
 
 /// Factor on the separation energy, and its inverse, between which it is open whether bodies stick.
 const UNCERTAINTY_OF_ENERGY: f64 = 3.0;
+/// Share of the energy by adhesion in all contacts above which it is warned of.
+const LEAST_SHARE: f64 = 0.05;
 
 impl Effect for AdhesionEffect {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
@@ -36,7 +38,7 @@ impl Effect for AdhesionEffect {
             number(loss.unwrap_or_default(), 2)
         );
         let warning = match work {
-            WorkOfAdhesion::Given(_) if sticks && is_open((sticking / speed).powi(2)) => {
+            WorkOfAdhesion::Given(_) if sticks && is_open(shares(scene, &adhesion, speed)) => {
                 Some(format!(
                     "the bodies may stay together by adhesion, as in this run: by closed forms they stick below {below}, and \
                      the approach speed is {}; history and fields are those without adhesion",
@@ -97,6 +99,47 @@ impl Effect for AdhesionEffect {
         Some(NeglectError::of_changes(estimate, changes(scene, &adhesion, estimate)))
     }
 
+    /// Later contacts of a ball that bounces: what they lose by adhesion adds up, and slow ones may stick.
+    fn warnings_of_result(
+        &self,
+        scene: &Scene,
+        _: &Estimate,
+        collision: &Collision,
+    ) -> Vec<String> {
+        let Some(adhesion) = Self::given(scene).filter(|_| collision.bounces.len() > 1) else {
+            return Vec::new();
+        };
+        let sticking = adhesion.sticking_speed();
+        let numbered =
+            || collision.bounces.iter().enumerate().map(|(k, one)| (k + 1, one.speed_before));
+        let mut lost = 0.0;
+        let spent = numbered().find(|(_, speed)| {
+            lost += (sticking / speed).powi(2);
+            lost >= 1.0
+        });
+        let near = numbered().find(|(_, speed)| is_open(shares(scene, &adhesion, *speed)));
+        let near = near.filter(|(k, _)| *k > 1 && spent.is_none_or(|(rests, _)| *k < rests));
+        let near = near.map(|(k, speed)| {
+            format!(
+                "contact {k}, at {}, is near the sticking speed of {}: the ball may stay there",
+                show(speed, "m/s"),
+                show(sticking, "m/s")
+            )
+        });
+        let all = match spent {
+            Some((k, _)) => Some(format!(
+                "adhesion takes energy in each contact, which the run leaves out: with it the ball comes to rest in about {k} contacts"
+            )),
+            None => (lost > LEAST_SHARE).then(|| {
+                format!(
+                    "adhesion takes energy in each contact, which the run leaves out: in all {} of that of the ball",
+                    percent(lost)
+                )
+            }),
+        };
+        near.into_iter().chain(all).collect()
+    }
+
     /// The neglect error of all quantities. Near the sticking speed, bodies may stick or part, and all of the restitution is
     /// open; far below it they stick.
     fn model_form_error(
@@ -114,7 +157,7 @@ impl Effect for AdhesionEffect {
         let speed = estimate.hertz.approach_speed();
         let errors = NeglectError::errors_of(estimate, changes(scene, &adhesion, estimate));
         let share = (adhesion.sticking_speed() / speed).powi(2);
-        let open = match is_open(share) {
+        let open = match is_open(shares(scene, &adhesion, speed)) {
             true => restitution_without(scene, speed),
             false if share > 1.0 => 0.0,
             false => return errors,
@@ -136,8 +179,8 @@ impl AdhesionEffect {
 
     /// Returns whether the case's adhesion holds the bodies together for certain.
     pub(in crate::effects) fn surely_sticks(scene: &Scene, speed: f64) -> bool {
-        let share = |adhesion: Adhesion| (adhesion.sticking_speed() / speed).powi(2);
-        Self::given(scene).map(share).is_some_and(|share| share > 1.0 && !is_open(share))
+        let shares = |adhesion: Adhesion| shares(scene, &adhesion, speed);
+        Self::given(scene).map(shares).is_some_and(|shares| shares[0] > 1.0 && !is_open(shares))
     }
 
     /// Returns whether a model lacks the effect. The loss of a contact law is the user's, unless the case gives a surface
@@ -147,9 +190,19 @@ impl AdhesionEffect {
     }
 }
 
-/// Returns whether it is open whether bodies stick, at a separation energy over the kinetic one.
-fn is_open(share: f64) -> bool {
-    (UNCERTAINTY_OF_ENERGY.recip()..=UNCERTAINTY_OF_ENERGY).contains(&share)
+/// Returns whether it is open whether bodies stick, for a range of the separation energy over the kinetic one.
+fn is_open([least, most]: [f64; 2]) -> bool {
+    least <= UNCERTAINTY_OF_ENERGY && most >= UNCERTAINTY_OF_ENERGY.recip()
+}
+
+/// Returns the least and the largest separation energy over the kinetic one at an approach speed, m/s, by the uncertainty of the work of
+/// adhesion.
+fn shares(scene: &Scene, adhesion: &Adhesion, speed: f64) -> [f64; 2] {
+    let uncertainty = scene.adhesion_uncertainty();
+    [-uncertainty, uncertainty].map(|change| {
+        let work = (adhesion.work_of_adhesion() + change).max(0.0);
+        (Adhesion::new(adhesion.pair(), work).sticking_speed() / speed).powi(2)
+    })
 }
 
 fn adhesion_of(scene: &Scene) -> Option<Adhesion> {

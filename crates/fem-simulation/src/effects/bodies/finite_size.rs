@@ -12,6 +12,7 @@ use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
 use crate::estimate::Estimate;
+use crate::estimate::plate_impact::thin_plate_mobility;
 use crate::quantity_errors::QuantityErrors;
 
 /// Coefficient of (a/R*)² in the errors of contact time and peak force: Ting's model with finite size agrees with finite
@@ -52,15 +53,23 @@ impl FiniteSizeEffect {
         Support::decided(is_there, reason).warning(warning)
     }
 
-    /// Returns the error of neglecting the effect for contacts that relaxation makes too wide for its first order: a share
-    /// s of the approach changes the stiffness by (1 − s)^(−3/2), and contact time and force follow with the power 2/5.
-    /// For spheres that relax to 3 % and less it gives 6 to 12 % where 5 to 10 % were computed. The loss of restitution
-    /// by relaxation changes with the contact time.
+    /// Returns the error of neglecting the effect for contacts that are too wide for its first order: a share s of the
+    /// approach changes the stiffness by (1 − s)^(−3/2), and contact time and force follow with the power 2/5. For spheres
+    /// that relax to 3 % and less it gives 6 to 12 % where 5 to 10 % were computed. The loss of restitution by relaxation and
+    /// to a plate changes with the contact time, and the thickness of the plate adds its own change.
     fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let share = Self::share(scene, estimate).filter(|share| *share < MAX_KNOWN)?;
         let change = 0.6 * share;
-        let restitution = Some(change * relaxed_loss(scene, estimate));
-        Some(NeglectError { restitution, ..NeglectError::shares(estimate, change, change) })
+        let by_size = NeglectError::shares(estimate, change, change);
+        if thin_plate_mobility(scene).is_none() {
+            let restitution = Some(change * relaxed_loss(scene, estimate));
+            return Some(NeglectError { restitution, ..by_size });
+        }
+        let speed = estimate.hertz.approach_speed();
+        let thin = TingPrediction::of(scene, speed, false).ok()?;
+        let by_thickness = TingPrediction::on_thick_plate(scene, speed).ok()?.change_from(&thin);
+        let restitution = Some(change * (1.0 - thin.restitution));
+        Some(NeglectError { restitution, ..by_size }.plus(&by_thickness))
     }
 
     /// Returns the largest relative error of the half-space pressure.

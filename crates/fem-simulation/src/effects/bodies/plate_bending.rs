@@ -11,14 +11,19 @@ use fem_laws::{plate_slow_contact_error, plate_thickness_error};
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
-use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, PlateBending};
 use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
-use crate::estimate::plate_impact::{PlateImpact, PlateRegime, THIN};
+use crate::estimate::plate_impact::{LARGE_DEFLECTION, PlateImpact, PlateRegime, THIN};
+use crate::plan::Plan;
+use crate::plan::limits::check_size;
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
+
+/// Deflection over the thickness below which the stretching of a plate of elements is left out: 0.25 % of its loss.
+const NO_STRETCHING: f64 = 0.05;
 
 impl PlateBending {
     /// Returns whether the scene has a plate that is not a half-space to its impact.
@@ -42,13 +47,31 @@ impl PlateBending {
 
     /// Returns the error of the plate in the model of a scene that computes it; `None` if it is unknown.
     pub(crate) fn error_of_term(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
-        if !Self::is_needed(scene, estimate) || *scene.model() == ModelChoice::Fem {
+        if !Self::is_needed(scene, estimate) {
             return Some(QuantityErrors::ZERO);
         }
         let neglect_error = Self.neglect_error(scene, estimate);
         let status = EffectStatus { is_lacking: false, neglect_error };
         let error = Self.model_form_error(scene, estimate, &status);
         error.size(QuantityOfInterest::Restitution).is_some().then_some(error)
+    }
+
+    /// Returns the difference between Ting's impacts on the plate without an edge and on a half-space.
+    fn change_by_bending(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+        let speed = estimate.hertz.approach_speed();
+        let side = scene.bodies().iter().position(|body| body.plate().is_some())?;
+        let bent = PlateBending.switched(scene, Some(Switch::On));
+        let half_space = PlateBending.switched(&bent.with_half_space(side), None);
+        let sized = [&bent, &half_space].map(|scene| TingPrediction::of(scene, speed, true));
+        let [bent, half_space] = match sized {
+            [Ok(bent), Ok(half_space)] => [bent, half_space],
+            // A contact too wide for the first order of the spheres' size.
+            _ => [
+                TingPrediction::on_thick_plate(&bent, speed).ok()?,
+                TingPrediction::of(&half_space, speed, false).ok()?,
+            ],
+        };
+        Some(bent.change_from(&half_space))
     }
 
     /// Returns why the model of a scene cannot compute its plate, if it cannot.
@@ -73,7 +96,13 @@ impl PlateBending {
                 let message = format!(
                     "model {model} cannot compute a plate that is bonded: a rigid base gives its waves back within the contact"
                 );
-                let help = "use model fem, or auto, which chooses it";
+                let of_elements = scene.clone().with_model(ModelChoice::Fem);
+                let has_mesh =
+                    Plan::of(&of_elements).and_then(|plan| check_size(&of_elements, &plan));
+                let help = match has_mesh {
+                    Ok(()) => "use model fem, or auto, which chooses it".to_string(),
+                    Err(rejection) => rejection.help.unwrap_or(rejection.message),
+                };
                 Err(Rejection::new(format!("body.{side}.plate.support"), message).with_help(help))
             }
             _ => Ok(()),
@@ -97,11 +126,13 @@ impl Effect for PlateBending {
                 number(plate.lambda, 2)
             ),
         };
-        if plate.edge_return <= 1.0 {
-            text += &format!(
-                "; surface waves are back from its edge after {} of it",
-                number(plate.edge_return, 2)
-            );
+        match plate.edge_return {
+            0.0 => text += "; the contact lasts until waves are back from its edge",
+            ..=1.0 => {
+                let share = number(plate.edge_return, 2);
+                text += &format!("; surface waves are back from its edge after {share} of it");
+            }
+            _ => {}
         }
         let open = match (plate.edge_return <= 1.0, plate.regime) {
             (true, _) => Some(format!(
@@ -137,7 +168,7 @@ impl Effect for PlateBending {
         let relevance = self.relevance(scene, estimate).unwrap_or_default();
         let support = Support::decided(false, format!("{}: a half-space", relevance.number));
         let scene = PlateBending.switched(&scene.with_half_space(side), None);
-        Ok(Some(TransformedScene { scene, support }))
+        Ok(Some(TransformedScene { scene, outcome: Transformation::Decides(support) }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
@@ -155,24 +186,10 @@ impl Effect for PlateBending {
         if plate.is_half_space() {
             return Some(NeglectError::NOTHING);
         }
-        if !plate.is_dashpot() {
-            return None;
-        }
-        let speed = estimate.hertz.approach_speed();
-        let [bent, half_space] = [Switch::On, Switch::Off].map(|switch| {
-            let switched = self.switched(scene, Some(switch));
-            let side = scene.bodies().iter().position(|body| body.plate().is_some())?;
-            let scene = match switch {
-                Switch::Off => self.switched(&switched.with_half_space(side), None),
-                _ => switched,
-            };
-            let of = |finite_size| TingPrediction::of(&scene, speed, finite_size).ok();
-            of(true).or_else(|| of(false))
-        });
-        Some(bent?.change_from(&half_space?))
+        plate.is_dashpot().then(|| Self::change_by_bending(scene, estimate)).flatten()
     }
 
-    /// A model with a plate as a dashpot has the error of the fit to elements that includes its finite thickness; without it that is
+    /// All models leave out that a plate stretches as it bends. A model with a plate as a dashpot has the error of the fit to elements that includes its finite thickness; without it that is
     /// part of the error of finite size. Where waves return from the edge, the error is unknown.
     fn model_form_error(
         &self,
@@ -181,17 +198,25 @@ impl Effect for PlateBending {
         status: &EffectStatus,
     ) -> QuantityErrors {
         let Some(plate) = PlateImpact::of(scene, estimate) else { return QuantityErrors::ZERO };
-        if plate.is_half_space() || *scene.model() == ModelChoice::Fem {
+        let is_of_elements = *scene.model() == ModelChoice::Fem;
+        if plate.is_half_space() || is_of_elements && plate.deflection < NO_STRETCHING {
             return QuantityErrors::ZERO;
         }
-        let Some(change) = status.neglect_error.filter(|_| plate.is_dashpot()) else {
+        let change = match is_of_elements {
+            true => Self::change_by_bending(scene, estimate),
+            false => status.neglect_error.filter(|_| plate.is_dashpot()),
+        };
+        let Some((change, stretching)) = change.zip(plate.linear_theory_error()) else {
             return QuantityErrors::default();
         };
+        let all = change.of_all_quantities(estimate);
         if status.is_lacking {
-            return change.of_all_quantities(estimate);
+            return all;
         }
-        let (all, share) =
-            (change.of_all_quantities(estimate), plate_thickness_error(plate.thicknesses));
+        if is_of_elements {
+            return all.times(stretching);
+        }
+        let share = plate_thickness_error(plate.thicknesses) + stretching;
         QuantityErrors::from_fn(|quantity| {
             let slow = match quantity {
                 QuantityOfInterest::ContactTime => plate_slow_contact_error(plate.lambda),
@@ -202,13 +227,21 @@ impl Effect for PlateBending {
     }
 
     fn warnings_of_result(&self, scene: &Scene, estimate: &Estimate, _: &Collision) -> Vec<String> {
-        if !Self::is_needed(scene, estimate) || *scene.model() == ModelChoice::Fem {
+        let Some(plate) = PlateImpact::of(scene, estimate) else { return Vec::new() };
+        if !Self::is_needed(scene, estimate) {
             return Vec::new();
         }
-        self.relevance(scene, estimate)
-            .and_then(|relevance| relevance.warning)
-            .into_iter()
-            .collect()
+        let stretched = (plate.deflection > LARGE_DEFLECTION).then(|| {
+            format!(
+                "{} would bend by {} of its thicknesses: from {LARGE_DEFLECTION} on it stretches, which linear plate theory leaves \
+                 out, and the result means nothing; use a slower or lighter body, or a thicker plate",
+                plate.body.name(),
+                number(plate.deflection, 2)
+            )
+        });
+        let is_of_elements = *scene.model() == ModelChoice::Fem;
+        let of_term = self.relevance(scene, estimate).and_then(|relevance| relevance.warning);
+        stretched.into_iter().chain(of_term.filter(|_| !is_of_elements)).collect()
     }
 }
 

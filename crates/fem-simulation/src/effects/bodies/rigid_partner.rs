@@ -10,7 +10,7 @@ use fem_case::{Body, Scene, Switch};
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, RigidPartner};
 use crate::effects::ting_prediction::change_between;
@@ -51,7 +51,7 @@ impl Effect for RigidPartner {
         let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
         shapes[stiffer.side] = stiffer.body.rigid();
         let scene = RigidPartner.switched(scene, None).with_shapes(shapes);
-        Ok(Some(TransformedScene { scene, support }))
+        Ok(Some(TransformedScene { scene, outcome: Transformation::Decides(support) }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {

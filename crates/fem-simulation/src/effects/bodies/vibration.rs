@@ -62,7 +62,7 @@ impl Effect for Vibration {
         );
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
         let loss = loss_by_inertia(scene, estimate) + RINGING_LOSS * ringing;
-        Some(NeglectError { restitution: Some(loss * relaxed), ..lengths })
+        Some(NeglectError { restitution: Some((loss * relaxed).min(1.0)), ..lengths })
     }
 
     /// The neglect error, with a margin on the loss.

@@ -50,10 +50,11 @@ impl NeglectError {
         Self { restitution: Some(0.0), contact_time_s: Some(0.0), peak_force_n: Some(0.0) };
 
     /// Returns the magnitudes of changes of restitution, contact time (s) and peak force (N), without those that
-    /// are not finite.
+    /// are not finite. A restitution changes by at most 1.
     pub(in crate::effects) fn of(changes: [Option<f64>; 3]) -> Self {
         let [restitution, contact_time_s, peak_force_n] =
             changes.map(|change| change.filter(|change| change.is_finite()).map(f64::abs));
+        let restitution = restitution.map(|change| change.min(1.0));
         Self { restitution, contact_time_s, peak_force_n }
     }
 
@@ -63,6 +64,16 @@ impl NeglectError {
         let sizes = &estimate.effective.sizes;
         let [time, force] = [contact_time * sizes.contact_time, peak_force * sizes.peak_force];
         Self::of([Some(0.0), Some(time), Some(force)])
+    }
+
+    /// Returns the sum of two changes; `None` where either is.
+    pub(in crate::effects) fn plus(&self, other: &Self) -> Self {
+        let sum = |one: Option<f64>, other: Option<f64>| Some(one? + other?);
+        Self::of([
+            sum(self.restitution, other.restitution),
+            sum(self.contact_time_s, other.contact_time_s),
+            sum(self.peak_force_n, other.peak_force_n),
+        ])
     }
 
     /// Returns the model-form errors that follow from neglecting the effect.
@@ -110,7 +121,7 @@ impl NeglectError {
     pub(in crate::effects) fn of_changes(estimate: &Estimate, changes: [f64; 6]) -> Self {
         let errors = Self::errors_of(estimate, changes);
         let [e, time, force, ..] = QuantityOfInterest::ALL.map(|quantity| errors.size(quantity));
-        Self { restitution: e, contact_time_s: time, peak_force_n: force }
+        Self::of([e, time, force])
     }
 }
 

@@ -12,17 +12,45 @@ use crate::rejection::Rejection;
 pub struct TransformedScene {
     /// The transformed scene.
     pub scene: Scene,
-    /// The effect's support, [`Support::Is`].
-    pub support: Support,
+    /// What the transformation means for the effect.
+    pub outcome: Transformation,
 }
 
-/// A scene transformed by all effects, with their supports.
+/// The consequence of a transformation of the scene for the model's support of its effect.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transformation {
+    /// The transformation decides alone, [`Support::Is`]: the scene is without the effect, or has it whatever the model.
+    Decides(Support),
+    /// The rest of the effect is left to the model, whose support holds; the text follows its reason.
+    LeavesToModel(String),
+}
+
+impl Transformation {
+    /// Returns the support of a model of the transformed scene. `number` is the deciding number of the given scene.
+    pub(crate) fn support(&self, of_model: Option<Support>, number: &str) -> Option<Support> {
+        let note = match self {
+            Self::Decides(support) => return Some(support.clone()),
+            Self::LeavesToModel(note) => note,
+        };
+        Some(match of_model? {
+            Support::Lacks => Support::Lacks,
+            Support::Computes { .. } | Support::Inherent { .. } => {
+                Support::decided(true, format!("{number}; {note}"))
+            }
+            Support::Is { active, reason, warnings } => {
+                Support::decided(active, format!("{reason}; {note}")).warning(warnings)
+            }
+        })
+    }
+}
+
+/// A scene transformed by all effects.
 #[derive(Clone, Debug)]
 pub(crate) struct SimplifiedScene {
     /// The transformed scene.
     pub scene: Scene,
-    /// Names and supports of the effects that changed the scene; empty if none did.
-    pub supports: Vec<(&'static str, Support)>,
+    /// Names and transformations of the effects that changed the scene; empty if none did.
+    pub transformations: Vec<(&'static str, Transformation)>,
 }
 
 impl SimplifiedScene {
@@ -34,9 +62,11 @@ impl SimplifiedScene {
     pub fn of(given: &Scene) -> Result<Self, Rejection> {
         let estimate = Estimate::checked(given)?;
         let mut computed = Self::without_warnings(given, &estimate)?;
-        for (name, support) in &mut computed.supports {
+        for (name, transformation) in &mut computed.transformations {
             let forced = effect_named(name).and_then(|effect| effect.forced(given, &estimate));
-            *support = support.clone().warning(forced);
+            if let Transformation::Decides(support) = transformation {
+                *support = support.clone().warning(forced);
+            }
         }
         Ok(computed)
     }
@@ -49,11 +79,11 @@ impl SimplifiedScene {
 
     /// Transforms a scene without warnings about forced switches.
     fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Rejection> {
-        let mut computed = Self { scene: given.clone(), supports: Vec::new() };
+        let mut computed = Self { scene: given.clone(), transformations: Vec::new() };
         for effect in EFFECTS {
             if let Some(next) = effect.transform(&computed.scene, estimate)? {
                 computed.scene = next.scene;
-                computed.supports.push((effect.name(), next.support));
+                computed.transformations.push((effect.name(), next.outcome));
             }
         }
         Ok(computed)

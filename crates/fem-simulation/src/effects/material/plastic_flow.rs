@@ -7,16 +7,17 @@
 
 use fem_case::engineering::show;
 use fem_case::library::LikeMaterial;
-use fem_case::{Body, ModelChoice, Scene, Switch};
-use fem_laws::{FirstYield, LawFamily, largest_von_mises};
+use fem_case::{Body, Scene, Switch};
+use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::{FlowRule, Material};
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
-use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, NamedEffect, PlasticFlow};
 use crate::estimate::Estimate;
+use crate::estimate::plastic_flow::{first_yield, law_error, on_plate};
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
@@ -38,7 +39,7 @@ struct Onset<'a> {
 
 impl<'a> Onset<'a> {
     /// Returns the onset of a body that may yield and whose strength, or that of its like in the library, is known.
-    fn of(body: &'a Body, estimate: &Estimate) -> Option<Self> {
+    fn of(scene: &Scene, body: &'a Body, estimate: &Estimate) -> Option<Self> {
         let like = match body.yield_strength() {
             Some(_) => None,
             None if body.is_meant_elastic() => return None,
@@ -46,12 +47,12 @@ impl<'a> Onset<'a> {
         };
         let strength = like.map_or(body.yield_strength(), |like| like.yield_strength)?;
         let first = FirstYield::new(&estimate.hertz, body.yielding_at(strength)?);
-        Some(Self { body, first, like })
+        Some(Self { body, first: on_plate(scene, first)?, like })
     }
 
     /// Returns the onsets of both bodies.
     fn of_both(scene: &'a Scene, estimate: &Estimate) -> [Option<Self>; 2] {
-        scene.bodies().each_ref().map(|body| Self::of(body, estimate))
+        scene.bodies().each_ref().map(|body| Self::of(scene, body, estimate))
     }
 
     /// Returns the onsets of the bodies that yield, the earliest first.
@@ -59,13 +60,19 @@ impl<'a> Onset<'a> {
         let onsets = Self::of_both(scene, estimate);
         let borne =
             onsets.each_ref().map(|onset| onset.as_ref().map_or(f64::INFINITY, Self::borne));
-        let elastic = estimate.effective.sizes.peak_pressure;
         let both = onsets.into_iter().zip([borne[1], borne[0]]);
-        let mut yielding: Vec<Self> = both
-            .filter_map(|(onset, borne)| onset.filter(|it| elastic.min(borne) > it.first.pressure))
-            .collect();
+        let yields = |onset: &Self, borne: f64| {
+            onset.elastic_pressure(estimate).min(borne) > onset.first.pressure
+        };
+        let both = both.filter_map(|(onset, borne)| onset.filter(|it| yields(it, borne)));
+        let mut yielding: Vec<Self> = both.collect();
         yielding.sort_by(|a, b| a.first.pressure.total_cmp(&b.first.pressure));
         yielding
+    }
+
+    /// Returns the peak pressure of the elastic contact, Pa, with relaxed moduli and on the scene's plate.
+    fn elastic_pressure(&self, estimate: &Estimate) -> f64 {
+        self.first.elastic().peak_pressure.min(estimate.effective.sizes.peak_pressure)
     }
 
     /// Returns the largest pressure, Pa, that the body bears as it flows.
@@ -83,8 +90,8 @@ impl<'a> Onset<'a> {
 
     /// Returns the approach speed from which on the body yields, as text.
     fn speed(&self, estimate: &Estimate) -> String {
-        let over = self.first.pressure / estimate.effective.sizes.peak_pressure;
-        show(estimate.hertz.approach_speed() * over.powf(2.5), "m/s")
+        let relaxed = self.first.elastic().peak_pressure / self.elastic_pressure(estimate);
+        show(self.first.speed * relaxed.powf(2.5), "m/s")
     }
 
     /// Returns why a model without flow gives bounds, and what to do.
@@ -132,7 +139,7 @@ impl Effect for PlasticFlow {
             .chain(others)
             .reduce(|a, b| if b.first.pressure < a.first.pressure { b } else { a });
         let Some(onset) = earliest else { return Some(without_strength(scene, estimate)) };
-        let ratio = estimate.effective.sizes.peak_pressure / onset.first.pressure;
+        let ratio = onset.elastic_pressure(estimate) / onset.first.pressure;
         let of_whom = match onset.like {
             Some(like) => format!("{} with the strength of lib:{}", onset.body.name(), like.name),
             None => onset.body.name().to_string(),
@@ -171,7 +178,8 @@ impl Effect for PlasticFlow {
         let elastic = scene.bodies().each_ref().map(|body| Some(body.material()?.without_flow()));
         let support = Support::decided(false, format!("{number}; {why}"));
         let scene = self.switched(scene, None).with_materials(elastic);
-        Ok(is_possible.then_some(TransformedScene { scene, support }))
+        Ok(is_possible
+            .then_some(TransformedScene { scene, outcome: Transformation::Decides(support) }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
@@ -193,29 +201,20 @@ impl Effect for PlasticFlow {
 
     /// The change by the mean-pressure law.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let (_, first) = earliest(scene, estimate)?;
+        let (_, first) = first_yield(scene, &estimate.hertz)?;
         Some(NeglectError::of_changes(estimate, first.change()))
     }
 
-    /// Without flow all quantities are bounds. The mean-pressure law has an error of its own.
+    /// Without flow all quantities are bounds. A contact law that dents has an error of its own.
     fn model_form_error(
         &self,
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
-        let is_the_law = matches!(scene.model(), ModelChoice::Law { law, .. } if law.family == LawFamily::MeanPressure);
-        match earliest(scene, estimate) {
-            _ if status.is_lacking && !Onset::of_yielding(scene, estimate).is_empty() => {
-                QuantityErrors::default()
-            }
-            Some((_, first)) if is_the_law => {
-                let impact = first.impact(0.0);
-                let (errors, impact) = (first.errors(&impact), impact.in_order());
-                let own = |quantity| Some(errors[quantity as usize] * impact[quantity as usize]);
-                QuantityErrors::from_fn(own).checked()
-            }
-            _ => QuantityErrors::ZERO,
+        match status.is_lacking && !Onset::of_yielding(scene, estimate).is_empty() {
+            true => QuantityErrors::default(),
+            false => law_error(scene, estimate).unwrap_or(QuantityErrors::ZERO),
         }
     }
 
@@ -240,13 +239,6 @@ impl PlasticFlow {
             false => Support::Lacks,
         }
     }
-}
-
-/// Returns the body that yields first, of those with a yield strength.
-fn earliest<'a>(scene: &'a Scene, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
-    let bodies = scene.bodies().each_ref().map(Body::yielding);
-    let (index, first) = FirstYield::earliest(&estimate.hertz, bodies)?;
-    Some((&scene.bodies()[index], first))
 }
 
 /// Returns whether a material without a strength is judged by its like: not one as soft as rubber or with a hyperelastic law,

@@ -65,10 +65,15 @@ impl Effect for RateDependence {
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
-        match status.is_lacking {
-            true => NeglectError::errors_of(estimate, changes(scene, estimate)),
-            false => QuantityErrors::ZERO,
+        if !status.is_lacking {
+            return QuantityErrors::ZERO;
         }
+        // The change is a share of the pressure of the flowing contact, a fraction of the elastic one.
+        let mut flowing = *estimate;
+        if let Some(flow) = estimate.flow {
+            flowing.effective.sizes.peak_pressure = flow.peak_pressure;
+        }
+        NeglectError::errors_of(&flowing, changes(scene, estimate))
     }
 }
 

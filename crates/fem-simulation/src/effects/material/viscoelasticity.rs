@@ -3,13 +3,13 @@
 //! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)). Single terms that are much
 //! faster or slower than the contact are folded into the moduli ([`FastSlowLimits`]).
 
-use fem_case::{Body, Scene, Switch};
+use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
 use crate::effects::ting_prediction::change_between;
@@ -55,21 +55,18 @@ impl Effect for Viscoelasticity {
         if relaxing(scene).is_empty() {
             return Ok(None);
         }
-        let relevance = self.relevance(scene, estimate).unwrap_or_default();
         Ok(match scene.effects().viscoelasticity {
             Some(Switch::On) => None,
             Some(Switch::Off) => {
-                let elastic =
-                    materials(scene).map(|material| material.map(Material::without_relaxation));
-                let support =
-                    Support::decided(false, format!("{}; switched off", relevance.number));
-                Some(TransformedScene { scene: scene.clone().with_materials(elastic), support })
+                let number = self.relevance(scene, estimate).unwrap_or_default().number;
+                let support = Support::decided(false, format!("{number}; switched off"));
+                let outcome = Transformation::Decides(support);
+                let scene = elastic(scene, materials(scene));
+                Some(TransformedScene { scene, outcome })
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
-                let n_kept: usize = folded.materials.iter().map(n_terms).sum();
-                let support =
-                    Support::decided(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
-                TransformedScene { scene: scene.clone().with_materials(folded.materials), support }
+                let outcome = Transformation::LeavesToModel(in_words(&folded, estimate));
+                TransformedScene { scene: scene.clone().with_materials(folded.materials), outcome }
             }),
         })
     }
@@ -82,7 +79,7 @@ impl Effect for Viscoelasticity {
     }
 
     /// Difference between Ting's impacts of relaxing and of elastic bodies, with the waves radiated by
-    /// each.
+    /// each. Elastic bodies of a model without relaxation have the moduli with the folded terms.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if relaxing(scene).is_empty() {
             return Some(NeglectError::NOTHING);
@@ -91,8 +88,14 @@ impl Effect for Viscoelasticity {
             Some(Switch::Off) => Some(Switch::Auto),
             own => own,
         };
-        let [with, without] =
-            [followed, Some(Switch::Off)].map(|switch| self.switched(scene, switch));
+        let with = self.switched(scene, followed);
+        let is_elastic =
+            matches!(scene.model(), ModelChoice::Hertz { .. } | ModelChoice::Law { .. });
+        let folded = self.transform(scene, estimate).ok().flatten().filter(|_| is_elastic);
+        let without = match folded {
+            Some(folded) => elastic(&folded.scene, materials(&folded.scene)),
+            None => self.switched(scene, Some(Switch::Off)),
+        };
         Some(change_between(&with, &without, estimate.hertz.approach_speed()))
     }
 }
@@ -128,26 +131,27 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     Some((relaxing - hertz.restitution()).abs())
 }
 
-/// Returns the numbers of integrated and folded terms and the error of folding, as text.
-fn in_words(
-    relevance: &Relevance,
-    folded: &FastSlowLimits,
-    estimate: &Estimate,
-    n_kept: usize,
-) -> String {
+/// Returns the numbers of remaining and folded terms and the error of folding, as text.
+fn in_words(folded: &FastSlowLimits, estimate: &Estimate) -> String {
     let sum = |counts: [usize; 2]| counts.iter().sum::<usize>();
     let (n_fast, n_slow) = (sum(folded.n_fast), sum(folded.n_slow));
+    let n_kept: usize = folded.materials.iter().map(n_terms).sum();
     let RelativeError { restitution, contact_time, peak_force } = folded.error;
     let error = NeglectError {
         restitution: Some(restitution.abs()),
         ..NeglectError::shares(estimate, contact_time, peak_force)
     };
     format!(
-        "{}; {n_kept} of {} terms are integrated; {n_fast} faster and {n_slow} slower than the contact are folded \
-         into the moduli, which changes {error}",
-        relevance.number,
+        "{n_kept} of {} terms remain; {n_fast} faster and {n_slow} slower than the contact are folded into the moduli, \
+         which changes {error}",
         n_kept + n_fast + n_slow
     )
+}
+
+/// Returns the scene with these materials as elastic ones.
+fn elastic(scene: &Scene, materials: [Option<&Material>; 2]) -> Scene {
+    let elastic = materials.map(|material| material.map(Material::without_relaxation));
+    scene.clone().with_materials(elastic)
 }
 
 fn n_terms(material: &Option<Material>) -> usize {

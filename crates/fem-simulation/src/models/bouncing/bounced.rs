@@ -172,9 +172,11 @@ impl Bounced {
         let unloaded =
             collision.unloaded.take().map(|dent| Snapshot { time: time + dent.time, ..dent });
         let locked_in = collision.bodies.each_ref().map(|body| body.locked_in);
+        let is_same = self.gravity.spot == Some(Spot::Same);
+        let of_dents = locked_in.iter().flatten().filter(|_| is_same).sum();
         let first = self.first.get_or_insert(collision);
         // A dent is that of the last contact in the same place.
-        if is_first || self.gravity.spot == Some(Spot::Same) && unloaded.is_some() {
+        if is_first || is_same && unloaded.is_some() {
             first.unloaded = unloaded;
             for (body, energy) in first.bodies.iter_mut().zip(locked_in) {
                 body.locked_in = energy;
@@ -188,7 +190,7 @@ impl Bounced {
         if self.bounces.len() < self.gravity.bounces
             && let Some(end) = &end
         {
-            self.chain.fly(end, &landing, request.history_rows > 0);
+            self.chain.fly(end, &landing, of_dents, request.history_rows > 0);
         }
         Some(landing.speed)
     }

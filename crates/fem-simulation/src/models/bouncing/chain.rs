@@ -28,7 +28,8 @@ pub(super) struct Chain {
     time: f64,
     /// Energy lost or supplied in earlier contacts, in joules.
     lost: EnergyLedger,
-    /// Energy that earlier contacts left in the bodies, J; `None` in the first contact.
+    /// Energy that earlier contacts left in the bodies, J, without that of dents onto which the ball falls; `None` in the
+    /// first contact.
     left: Option<f64>,
     /// Energy residual of earlier contacts, in joules.
     residual: f64,
@@ -123,15 +124,16 @@ impl Chain {
         self.rows.extend(kept);
     }
 
-    /// Adds the flight from the last row of a contact to the next landing, with rows if requested.
-    pub fn fly(&mut self, end: &HistoryRow, landing: &Landing, has_rows: bool) {
+    /// Adds the flight from the last row of a contact to the next landing, with rows if requested. The next contact begins
+    /// with the energy of the dents (J) as its strain energy if the ball falls onto them.
+    pub fn fly(&mut self, end: &HistoryRow, landing: &Landing, of_dents: f64, has_rows: bool) {
         let is_inner = |account: Account| {
             account.side() == BalanceSide::Held
                 && !matches!(account, Account::Kinetic | Account::Potential)
         };
         let inner = end.energies.entries().filter(|(account, _)| is_inner(*account));
         let vibration: f64 = end.vibration.iter().sum();
-        let left = vibration + inner.map(|(_, energy)| energy).sum::<f64>();
+        let left = vibration + inner.map(|(_, energy)| energy).sum::<f64>() - of_dents;
         let kinetic = end.energy(Account::Kinetic).unwrap_or_default() - vibration;
         let handed_on = kinetic + end.energy(Account::Potential).unwrap_or_default();
         self.lost = self.lost_after(&end.energies);
@@ -141,7 +143,8 @@ impl Chain {
         if has_rows {
             let step = (landing.time - end.time) / (FLIGHT_ROWS + 1) as f64;
             let times = (1..=FLIGHT_ROWS).map(|k| k as f64 * step).filter(|_| step > 0.0);
-            let rows: Vec<HistoryRow> = times.map(|time| self.flying(end, landing, time)).collect();
+            let rows: Vec<HistoryRow> =
+                times.map(|time| self.flying(end, landing, of_dents, time)).collect();
             self.rows.extend(rows);
         }
         self.time += landing.time;
@@ -153,7 +156,7 @@ impl Chain {
     }
 
     /// Returns the row of a flight at a time (s) after the last row of a contact.
-    fn flying(&self, end: &HistoryRow, landing: &Landing, time: f64) -> HistoryRow {
+    fn flying(&self, end: &HistoryRow, landing: &Landing, of_dents: f64, time: f64) -> HistoryRow {
         let upward = end.velocity[1] - end.velocity[0];
         // g (t_landing − t_end) = u + v.
         let gravity = (upward + landing.speed) / (landing.time - end.time);
@@ -168,6 +171,7 @@ impl Chain {
             match account {
                 Account::Kinetic => energies.add(account, handed_on * share),
                 Account::Potential => energies.add(account, handed_on * (1.0 - share)),
+                Account::Strain => energies.add(account, of_dents),
                 _ if account.side() == BalanceSide::Held => energies.add(account, 0.0),
                 _ => {}
             }

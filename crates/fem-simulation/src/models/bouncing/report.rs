@@ -24,7 +24,7 @@ pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)
     let least = bounces.iter().map(|bounce| bounce.restitution).fold(f64::INFINITY, f64::min);
     if *ending == Ending::Parted && n > 1 && least > RESTITUTION_WITHOUT_REST {
         said.push(format!(
-            "the ball never rests, since it loses almost no energy (no restitution is below {least:.6}); the run \
+            "the ball never rests by the losses of the run, which are almost none (no restitution is below {least:.6}); the run \
              ends after the {n} contacts of stop.bounces"
         ));
     }

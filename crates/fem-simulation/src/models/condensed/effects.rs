@@ -10,6 +10,7 @@ use crate::effects::{
     Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
+use crate::models::reduced::effects::no_dent;
 
 /// Returns the support of a scene's condensed bodies for an effect; without the bodies, as far as it is known before
 /// they are condensed.
@@ -57,7 +58,7 @@ fn modes_of_spheres<'a>(scene: &'a Scene, pair: &CondensedPair) -> Vec<(&'a str,
 
 /// Returns the keys that the case sets and condensed bodies do not read.
 pub(super) fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<String> {
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = no_dent(scene, "model condensed").into_iter().collect();
     for (key, value) in
         [("time.step_factor", scene.step_factor()), ("time.mass_scaling", scene.mass_scaling())]
     {

@@ -90,14 +90,15 @@ fn with_reference_runs(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) 
     }
 }
 
-/// Returns the bytes of the condensed reference runs, the largest of which has elements of half the length; `None` if they
-/// are not made.
+/// Returns the bytes of the condensed reference runs, the largest of which has elements of half the length and keeps its factors
+/// where the run has snapshots, whose stress it judges; `None` if they are not made.
 fn reference_memory(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Option<u64> {
     let [lower, upper] = scene.bodies();
     let [of_lower, of_upper] = model.bodies().each_ref().map(|body| 4 * body.n_elements() as u64);
+    let draws = scene.snapshots().is_none_or(|asked| !asked.is_empty());
     let are_allowed = MAX_BYTES * (of_lower + of_upper) <= plan.max_memory;
     (plan.makes_meshes && are_allowed)
-        .then(|| expected_bytes([(lower, of_lower), (upper, of_upper)], false))
+        .then(|| expected_bytes([(lower, of_lower), (upper, of_upper)], draws))
 }
 
 /// Returns the seconds per step of both bodies.

@@ -1,6 +1,6 @@
 //! Support of reduced models for each effect, and the keys of a case that they do not read.
 
-use fem_case::{ModelChoice, Scene, Snapshots, Switch};
+use fem_case::{ModelChoice, Scene, Spot, Switch};
 use fem_laws::laws::ContactLaw;
 use fem_material::engineering::number;
 
@@ -57,15 +57,22 @@ pub(super) fn support(
 /// Returns warnings about keys of the case that a reduced model does not read.
 pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
     let name = describe(scene.model());
-    let is_asked = |asked: &&Snapshots| match asked {
-        Snapshots::Labels(labels) => !labels.is_empty(),
-        Snapshots::Count(n) => *n > 0,
-        Snapshots::Times(times) => !times.is_empty(),
-    };
-    let snapshots = scene.snapshots().filter(is_asked).map(|_| ("snapshots", "to draw"));
+    let snapshots =
+        scene.snapshots().filter(|asked| !asked.is_empty()).map(|_| ("snapshots", "to draw"));
     let probes = scene.probes().first().map(|_| ("probe", "to record"));
     let warning = |(key, what)| format!("output.{key} has no effect: {name} has no fields {what}");
-    snapshots.into_iter().chain(probes).map(warning).collect()
+    let fields = snapshots.into_iter().chain(probes).map(warning);
+    fields.chain(no_dent(scene, &name)).collect()
+}
+
+/// Returns a warning for a ball that is to fall onto its own dent in a model that keeps none.
+pub(in crate::models) fn no_dent(scene: &Scene, name: &str) -> Option<String> {
+    let gravity = scene.gravity()?;
+    (gravity.spot == Some(Spot::Same) && gravity.bounces > 1).then(|| {
+        format!(
+            "gravity.spot has no effect: {name} keeps no dent, and each contact is that of undented surfaces; use model fem"
+        )
+    })
 }
 
 /// Returns the support of a model that takes instantaneous moduli, or the limit of slow contacts, for relaxation.

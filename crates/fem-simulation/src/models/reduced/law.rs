@@ -4,7 +4,8 @@ use fem_case::schema::LawTable;
 use fem_case::{Quantity, Scene};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
-    EndRule, Impact, LawContext, LawError, LawImpact, LawInput, LawInputError, Pair, PairRelaxation,
+    EndRule, FirstYield, Impact, LawContext, LawError, LawImpact, LawInput, LawInputError, Pair,
+    PairRelaxation,
 };
 
 use super::{Motion, Reduced, rejected};
@@ -77,22 +78,42 @@ pub(super) fn law_numbers(
     law: &LawInput,
     end_rule: EndRule,
 ) -> Result<(Vec<f64>, Pair), Rejection> {
-    let materials = scene.bodies().each_ref().map(|body| body.material());
-    let relaxation =
-        PairRelaxation::new(materials[0], materials[1]).map_err(|error| rejected(scene, &error))?;
-    let context = LawContext {
-        pair: *estimate.hertz.pair(),
-        approach_speed: estimate.hertz.approach_speed(),
-        materials,
-        yield_strengths: scene.bodies().each_ref().map(|body| body.yield_strength()),
-        radii: scene.bodies().each_ref().map(|body| body.radius()),
-        relaxation: &relaxation,
-        end_rule,
-    };
+    let relaxation = relaxation_of(scene).map_err(|error| rejected(scene, &error))?;
+    let context = context(scene, estimate, &relaxation, end_rule);
     law.parameters(&context).map_err(|error| match error {
         LawInputError::Law(error) => rejected(scene, &error),
         LawInputError::Materials { message, help } => {
             Rejection::new(scene.model().path(), message).with_help(help)
         }
     })
+}
+
+/// Returns the first yield of the body that flows under a law that dents; `None` if the law cannot be made of the scene.
+pub(super) fn flow_of(scene: &Scene, estimate: &Estimate, law: &LawInput) -> Option<FirstYield> {
+    let relaxation = relaxation_of(scene).ok()?;
+    let context = context(scene, estimate, &relaxation, EndRule::ZeroForce);
+    fem_laws::laws::flow_of(law, &context).ok()
+}
+
+fn relaxation_of(scene: &Scene) -> Result<PairRelaxation, LawError> {
+    let [first, second] = scene.bodies().each_ref().map(|body| body.material());
+    PairRelaxation::new(first, second)
+}
+
+/// Returns the pair and the collision that a law is made for.
+fn context<'a>(
+    scene: &'a Scene,
+    estimate: &Estimate,
+    relaxation: &'a PairRelaxation,
+    end_rule: EndRule,
+) -> LawContext<'a> {
+    LawContext {
+        pair: *estimate.hertz.pair(),
+        approach_speed: estimate.hertz.approach_speed(),
+        materials: scene.bodies().each_ref().map(|body| body.material()),
+        yield_strengths: scene.bodies().each_ref().map(|body| body.yield_strength()),
+        radii: scene.bodies().each_ref().map(|body| body.radius()),
+        relaxation,
+        end_rule,
+    }
 }

@@ -2,7 +2,7 @@
 //! conservation of momentum.
 
 mod collision;
-mod effects;
+pub(super) mod effects;
 mod hertz;
 mod law;
 mod ting;
@@ -13,7 +13,7 @@ use fem_case::schema::{End, HertzTable, ModelTable, StartTable, TingTable};
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_laws::laws::ContactLaw;
-use fem_laws::{EndRule, Impact, LawError, LawInput, Pair, StaticHertz};
+use fem_laws::{EndRule, FirstYield, Impact, LawError, LawInput, Pair, StaticHertz};
 
 use crate::effects::{Effect, PlateBending, Support, decide};
 use crate::estimate::Estimate;
@@ -187,6 +187,16 @@ impl Reduced {
         let end_rule = law.family.end_rule().unwrap_or_default();
         let (parameters, _) = law::law_numbers(scene, &Estimate::checked(scene)?, law, end_rule)?;
         Ok(parameters)
+    }
+
+    /// Returns the first yield of the body that flows under a law that dents, with that body's flow stress and without a plate;
+    /// `None` if the law cannot be made of the scene.
+    pub(crate) fn flow_of(
+        scene: &Scene,
+        estimate: &Estimate,
+        law: &LawInput,
+    ) -> Option<FirstYield> {
+        law::flow_of(scene, estimate, law)
     }
 
     /// Computes the relative motion at an approach speed, m/s, with the law's parameters of the case.

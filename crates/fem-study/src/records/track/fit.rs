@@ -34,6 +34,12 @@ pub(super) struct Fit<'a> {
     pub has_fitted_gravity: bool,
     /// Contact time, s.
     contact: Measured,
+    /// Accelerations of the flights, each by its own curvature, m/s².
+    own_gravity: Vec<Option<f64>>,
+    /// These over time.
+    accelerations: Trend,
+    /// Whether the flights or the levels of the bounces show that the scale changes in the picture or that the camera accelerates.
+    pub is_distorted: bool,
     /// Uncertainty of the drift that is taken out, m/s.
     pub drift_uncertainty: f64,
     pub noise: f64,
@@ -44,6 +50,8 @@ pub(super) struct Fit<'a> {
     pub air: Option<Departure>,
     /// The fit with more drag.
     more: Option<Box<Self>>,
+    /// The fit of a distorted picture without the growth of its scale.
+    rescaled: Option<Box<Self>>,
 }
 
 /// Instant and speeds of a bounce.
@@ -111,9 +119,9 @@ impl<'a> Fit<'a> {
             let (along, across) = flight.curvature(frames);
             (sum.0 + along, sum.1 + across)
         });
-        let residuals = |gravity: f64| -> Vec<Vec<f64>> {
+        let residuals = |gravity: &dyn Fn(&TrackFlight) -> f64| -> Vec<Vec<f64>> {
             let of_flight = |flight: &&TrackFlight| {
-                let parabola = flight.parabola(gravity);
+                let parabola = flight.parabola(gravity(flight));
                 let off = |k: &usize| {
                     (frames.heights[*k] - parabola.at(frames.times[*k])) * frames.weights[*k].sqrt()
                 };
@@ -121,7 +129,7 @@ impl<'a> Fit<'a> {
             };
             used.iter().map(of_flight).collect()
         };
-        let summary = |gravity: f64, n_free: usize| {
+        let summary = |gravity: &dyn Fn(&TrackFlight) -> f64, n_free: usize| {
             let residuals = residuals(gravity);
             let squares: f64 = residuals.iter().flatten().map(|r| r * r).sum();
             let products: f64 =
@@ -136,8 +144,8 @@ impl<'a> Fit<'a> {
         };
         let given = rig.gravity;
         let mut gravity = Measured { value: rig.flights().gravity(), ..rig.gravity() };
-        let (noise, freedom, correlation) =
-            summary(if across > 0.0 { along / across } else { 0.0 }, 1);
+        let common = if across > 0.0 { along / across } else { 0.0 };
+        let (noise, freedom, correlation) = summary(&|_| common, 1);
         let correlation_of = |found: f64| {
             if found > 2.0 / (n_frames.max(1) as f64).sqrt() {
                 found.min(MOST_CORRELATION)
@@ -160,9 +168,23 @@ impl<'a> Fit<'a> {
                 gravity = fitted;
                 (noise, freedom, correlation)
             }
-            false => summary(gravity.value, 0),
+            false => summary(&|_| gravity.value, 0),
         };
         let correlation = correlation_of(correlation);
+        let own = |flight: &TrackFlight| {
+            let (along, across) = flight.curvature(frames);
+            if across > 0.0 { along / across } else { gravity.value }
+        };
+        let (own_noise, own_freedom, own_correlation) = summary(&own, used.len());
+        let own_noise = own_noise * factor(correlation_of(own_correlation), own_freedom);
+        let accelerations: Vec<(f64, Measured)> = used
+            .iter()
+            .map(|flight| {
+                let uncertainty = own_noise / flight.curvature(frames).1.sqrt();
+                (flight.centre, Measured { value: own(flight), uncertainty })
+            })
+            .collect();
+        let accelerations = Trend::of(&accelerations);
         Self {
             flights: flights.to_vec(),
             minima,
@@ -170,12 +192,16 @@ impl<'a> Fit<'a> {
             gravity,
             has_fitted_gravity,
             contact: rig.contact_time(),
+            own_gravity: flights.iter().map(|flight| flight.as_ref().map(own)).collect(),
+            accelerations,
+            is_distorted: false,
             drift_uncertainty: 0.0,
             noise,
             correlation,
             widening: factor(correlation, freedom),
             air: None,
             more: None,
+            rescaled: None,
         }
     }
 
@@ -202,9 +228,11 @@ impl<'a> Fit<'a> {
             return Err(DataError::new(name, message).with_help(help));
         }
         if (ratio - 1.0).abs() > 0.005_f64.max(3.0 * uncertainty / value) {
+            let restitutions =
+                if self.is_distorted { "" } else { " and cancels in the restitutions" };
             warnings.push(format!(
                 "the parabolas fall with {value:.3} ± {uncertainty:.3} m/s²: the scale of the heights is off by {:.1} %, \
-                 the frame rate by half of that, or the air drags; it is in the uncertainty of the speeds and cancels in the restitutions",
+                 the frame rate by half of that, or the air drags; it is in the uncertainty of the speeds{restitutions}",
                 100.0 * (ratio - 1.0)
             ));
         }
@@ -224,8 +252,9 @@ impl<'a> Fit<'a> {
             [parabola.at(time) + height, parabola.velocity_at(time) + velocity]
         };
         let mut time = near;
-        // With one g the parabolas differ by a line; in air the difference is nearly one.
-        for _ in 0..if self.air.is_some() { AIR_ROUNDS } else { 1 } {
+        // With one g the parabolas differ by a line; in air, and with accelerations of their own, the difference is nearly one.
+        let is_line = self.air.is_none() && before.gravity == after.gravity;
+        for _ in 0..if is_line { 1 } else { AIR_ROUNDS } {
             let [falling, rising] = [at(&before, time), at(&after, time)];
             time += (falling[0] - rising[0]) / (rising[1] - falling[1]);
         }
@@ -286,14 +315,17 @@ impl<'a> Fit<'a> {
         let [before, after] =
             [own.before + self.drift_uncertainty, own.after - self.drift_uncertainty];
         changed.push(Bounce { before, after, ..own });
+        if self.is_distorted {
+            changed.extend(self.undistorted(k));
+        }
         (own.before > 0.0).then_some(Spread { own, changed })
     }
 
     /// Returns the impact of a bounce; `scale` is the relative uncertainty of speeds.
     pub fn impact(&self, k: usize, scale: f64) -> Option<Impact> {
         let mut spread = self.spread(k)?;
-        if let Some(more) = &self.more {
-            spread.changed.push(more.spread(k)?.own);
+        for other in [&self.more, &self.rescaled].into_iter().flatten() {
+            spread.changed.push(other.spread(k)?.own);
         }
         let speed = spread.of(|bounce| bounce.before);
         Some(Impact {
@@ -302,6 +334,67 @@ impl<'a> Fit<'a> {
             restitution: spread.of(|bounce| bounce.after / bounce.before),
             contact_time: None,
         })
+    }
+
+    /// Returns a bounce by parabolas with accelerations of their own.
+    fn of_own_gravity(&self, k: usize) -> Option<Bounce> {
+        let [before, after] = self.sides(k)?;
+        let parabolas =
+            [before.parabola(self.own_gravity[k]?), after.parabola(self.own_gravity[k + 1]?)];
+        Some(self.bounce(parabolas, self.times[self.minima[k]], self.contact.value))
+    }
+
+    /// Returns a bounce with its speeds relative to the plate in a picture whose scale changes or that accelerates, for two estimates of
+    /// the velocity of the plate: that from the bounce before, and that to the next one. Each flight has its own acceleration.
+    fn undistorted(&self, k: usize) -> Vec<Bounce> {
+        let Some(own) = self.of_own_gravity(k) else { return Vec::new() };
+        let velocity_to = |other: Option<usize>| {
+            let other = self.of_own_gravity(other.filter(|other| *other < self.minima.len())?)?;
+            Some((other.level - own.level) / (other.time - own.time))
+        };
+        let [before, after] = [k.checked_sub(1), Some(k + 1)].map(velocity_to);
+        let velocities = [before.or(after), after.or(before)].map(Option::unwrap_or_default);
+        let bounce = |velocity: f64| Bounce {
+            before: own.before + velocity,
+            after: own.after - velocity,
+            ..own
+        };
+        velocities.map(bounce).to_vec()
+    }
+
+    /// Returns the fit of a picture without the growth of its scale about a level (m): that by which the accelerations change.
+    fn rescaled(&self, frames: &Frames, rig: &Rig, level: f64) -> Option<Self> {
+        let Trend { time, mean, slope, .. } = self.accelerations;
+        let mut still = frames.clone();
+        for (y, t) in still.heights.iter_mut().zip(&frames.times) {
+            let scale = 1.0 + slope / mean * (t - time);
+            if scale.is_nan() || scale <= 0.5 {
+                return None;
+            }
+            *y = level + (*y - level) / scale;
+        }
+        let again = |flight: &TrackFlight| TrackFlight::of(&still, flight.frames.clone());
+        let flights: Vec<_> = self.flights.iter().map(|it| it.as_ref().map(again)).collect();
+        Some(Self::of(&still, &flights, self.minima, rig))
+    }
+
+    /// Finds whether the picture is distorted, after the drift of the plate is taken out.
+    pub fn find_distortion(&mut self, frames: &Frames, rig: &Rig, warnings: &mut Vec<String>) {
+        let spreads = (0..self.minima.len()).filter_map(|k| self.spread(k));
+        let levels: Vec<(f64, Measured)> =
+            spreads.map(|it| (it.own.time, it.of(|bounce| bounce.level))).collect();
+        let levels = Trend::of(&levels);
+        self.is_distorted = self.accelerations.differ || levels.differ;
+        if self.is_distorted {
+            self.rescaled = self.rescaled(frames, rig, levels.mean).map(Box::new);
+        }
+        if self.is_distorted {
+            warnings.push(
+                "the flights fall with different accelerations, or the plate is at different heights: the scale changes in the \
+                 picture or the camera moves, which is in the uncertainty of the restitutions"
+                    .to_string(),
+            );
+        }
     }
 
     /// Returns the velocity of the plate in the picture, m/s, if the levels of the bounces show one.
@@ -327,6 +420,35 @@ impl<'a> Fit<'a> {
         let uncertainty = scatter / (weights * square).sqrt();
         let is_clear = slope.abs() > 3.0 * uncertainty && slope.abs() > LEAST_DRIFT;
         is_clear.then_some(Measured { value: slope, uncertainty })
+    }
+}
+
+/// The straight line through values over time.
+#[derive(Clone, Copy, Debug)]
+struct Trend {
+    time: f64,
+    mean: f64,
+    slope: f64,
+    /// Whether the values differ by more than their uncertainties: by four standard deviations of the sum of squares about their mean, or
+    /// by three of their slope.
+    differ: bool,
+}
+
+impl Trend {
+    fn of(values: &[(f64, Measured)]) -> Self {
+        let weight = |it: &(f64, Measured)| it.1.uncertainty.max(f64::MIN_POSITIVE).powi(-2);
+        let sum = |of: &dyn Fn(&(f64, Measured)) -> f64| {
+            values.iter().map(|it| weight(it) * of(it)).sum::<f64>()
+        };
+        let weights = sum(&|_| 1.0);
+        let (time, mean) = (sum(&|it| it.0) / weights, sum(&|it| it.1.value) / weights);
+        let freedom = values.len() as f64 - 1.0;
+        let squares = sum(&|it| (it.1.value - mean).powi(2));
+        let slope = sum(&|it| (it.0 - time) * (it.1.value - mean));
+        let of_time = sum(&|it| (it.0 - time).powi(2));
+        let is_off = squares > freedom + 4.0 * (2.0 * freedom).sqrt();
+        let differ = freedom > 0.0 && (is_off || slope * slope > 9.0 * of_time);
+        Self { time, mean, slope: slope / of_time, differ }
     }
 }
 

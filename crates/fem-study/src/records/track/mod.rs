@@ -10,7 +10,11 @@
 //! Two successive parabolas intersect at the bounce; their slopes there, corrected by gτ/2 for a contact time τ, are the speeds
 //! before and after. In air the departure of each flight from the parabola with its apex, by [`FreeFlight`](super::FreeFlight), is taken from the
 //! heights and added to the slopes. The fitted g is free unless it is given: compared with that of the Earth it checks the scale of the picture and
-//! the frame rate, which cancel in the restitution. Uncertainties come from the scatter of the frames about the parabolas, with the
+//! the frame rate, which cancel in the restitution if they are constant. If the flights differ in their own g, or the bounces in their
+//! levels, by more than the frames scatter, the scale changes in the picture (perspective, a ball that comes nearer) or the camera moves: the
+//! uncertainty then has the differences from bounces with a g for each flight and the velocity of the plate between neighbouring bounces, and from
+//! those of a picture without the growth of its scale.
+//! Other uncertainties come from the scatter of the frames about the parabolas, with the
 //! correlation of neighbouring frames (an autoregressive process of first order), and propagate in first order.
 
 mod fit;
@@ -97,6 +101,7 @@ impl Track {
                 1e3 * drift
             ));
         }
+        fit.find_distortion(&frames, rig, &mut warnings);
         let scale = fit.check_scale(&frames.name, rig, &mut warnings)?;
         let mut impacts: Vec<Impact> =
             (0..minima.len()).filter_map(|k| fit.impact(k, scale)).collect();

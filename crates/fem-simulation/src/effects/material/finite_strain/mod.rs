@@ -291,7 +291,7 @@ impl Effect for FiniteStrain {
         }
         let change = with_relaxation(scene, estimate, departure(scene, estimate));
         let shares = NeglectError::shares(estimate, change.contact_time, change.peak_force);
-        Some(NeglectError { restitution: Some(change.restitution), ..shares })
+        Some(NeglectError { restitution: Some(change.restitution.min(1.0)), ..shares })
     }
 
     /// At small strain it is the largest change by any law that the materials may follow. At finite strain it is the
