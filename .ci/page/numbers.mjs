@@ -137,7 +137,7 @@ check('every model can be chosen, and says what it has', async () => {
 });
 
 check('a plate has its thickness, edge and support, and its energy in the ledger', async () => {
-  const { page, complaints } = await open(browser, `${address}#partner.shape=plate&striker.diameter=10&striker.material=steel&partner.material=steel&speed=1`);
+  const { page, complaints } = await open(browser, `${address}#partner.shape=plate&striker.diameter=10&striker.material=alumina&partner.material=alumina&speed=1`);
   const free = await settled(page);
   assert.match(free.text, /plate = \{ thickness = "5 mm" \}/);
   assert.ok(await page.locator('#slider-plate-thickness').isVisible() && !await page.locator('#slider-plate-diameter').isVisible());

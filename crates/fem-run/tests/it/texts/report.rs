@@ -156,7 +156,11 @@ fn comparison_shows_the_differing_keys_first() {
         page.contains("Force over Hertz' peak force")
             || page.contains("Force over Hertz&#39; peak")
     );
-    assert_eq!(page.matches("<figure class=\"film\">").count(), 2, "stresses next to each other");
+    assert_eq!(
+        page.matches("<figure class=\"film scale").count(),
+        2,
+        "stresses next to each other"
+    );
     let (before, rest) = page.split_once("<details>").unwrap();
     let (folded, _) = rest.split_once("</details>").unwrap();
     assert!(before.contains("body.0.approach_speed") && folded.contains("mesh.refined_radius"));

@@ -105,6 +105,8 @@ fn report_of_a_run_fits_on_a_screen() {
             "model:   fem = {}, the cheapest within the tolerance|became plastic work",
         ),
     ] {
+        // An earlier result would be announced.
+        let _ = std::fs::remove_dir_all(place.path("out"));
         let ran = place.succeed((command, "--force --out out"));
         ran.prints(said);
         // A terminal has a bar in place of the lines of progress.
