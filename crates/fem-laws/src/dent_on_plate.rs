@@ -87,14 +87,7 @@ pub(crate) fn quantities(
     speed: f64,
 ) -> Result<ImpactQuantities, LawError> {
     let impact = in_steps(FEW_STEPS_PER_UNIT, pair, law, (mobility, 0.0), speed)?;
-    Ok(ImpactQuantities {
-        restitution: impact.restitution,
-        contact_time: impact.contact_time.unwrap_or(f64::INFINITY),
-        peak_force: impact.peak_force,
-        max_approach: impact.max_approach,
-        max_contact_radius: impact.max_contact_radius,
-        peak_pressure: impact.peak_force / (PI * impact.max_contact_radius.powi(2)),
-    })
+    Ok(impact.quantities(impact.peak_force / (PI * impact.max_contact_radius.powi(2))))
 }
 
 /// Returns the collision in these steps per unit of time of the elastic contact.

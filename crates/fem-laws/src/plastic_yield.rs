@@ -313,14 +313,7 @@ fn elastic_on_plate(pair: &Pair, mobility: f64, speed: f64) -> Result<ImpactQuan
     let impact = model.with_plate(mobility)?.impact(speed)?;
     // Hertz' pressure under the largest force: p₀ = 2aE*/πR*.
     let elongation = impact.max_contact_radius / pair.effective_radius();
-    Ok(ImpactQuantities {
-        restitution: impact.restitution,
-        contact_time: impact.contact_time.unwrap_or(f64::INFINITY),
-        peak_force: impact.peak_force,
-        max_approach: impact.max_approach,
-        max_contact_radius: impact.max_contact_radius,
-        peak_pressure: 2.0 / PI * pair.contact_modulus() * elongation,
-    })
+    Ok(impact.quantities(2.0 / PI * pair.contact_modulus() * elongation))
 }
 
 #[cfg(test)]

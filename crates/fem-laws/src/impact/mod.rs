@@ -61,6 +61,18 @@ pub(crate) fn restitution(rate_at_end: Option<f64>, approach_speed: f64) -> f64 
 }
 
 impl Impact {
+    /// Returns the quantities of interest with a peak pressure, Pa, which not every model computes.
+    pub fn quantities(&self, peak_pressure: f64) -> ImpactQuantities {
+        ImpactQuantities {
+            restitution: self.restitution,
+            contact_time: self.contact_time.unwrap_or(f64::INFINITY),
+            peak_force: self.peak_force,
+            max_approach: self.max_approach,
+            max_contact_radius: self.max_contact_radius,
+            peak_pressure,
+        }
+    }
+
     /// Returns the energy radiated as waves, J; `None` for a model without radiation.
     pub fn radiated(&self) -> Option<f64> {
         self.history.last()?.radiated

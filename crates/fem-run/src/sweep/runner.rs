@@ -151,7 +151,7 @@ fn in_a_few_words(summary: &Summary) -> String {
     }
     let answer = |quantity: QuantityOfInterest| {
         let number = summary.collision.number(quantity);
-        let parts = summary.uncertainty.parts(quantity);
+        let parts = summary.uncertainty.of(quantity);
         number.map_or("-".to_string(), |number| answer_text(number, &parts, quantity))
     };
     format!(

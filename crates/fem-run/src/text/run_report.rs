@@ -195,15 +195,14 @@ fn details(summary: &Summary) -> String {
 fn quantities(summary: &Summary, detail: Detail) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
     let own = own_error(summary);
-    let is_uncertain = |it: QuantityOfInterest| {
-        summary.uncertainty.parts(it).input.is_some_and(|input| input > 0.0)
-    };
+    let is_uncertain =
+        |it: QuantityOfInterest| summary.uncertainty.of(it).input.is_some_and(|input| input > 0.0);
     let measured = summary.measured_restitution.iter().flatten();
     let measured = measured.filter_map(|it| Some((it.name, it.restitution?))).next();
     // Seven columns are too wide for 80 characters.
     let has_input = QuantityOfInterest::ALL.into_iter().any(is_uncertain);
     let has_measured = measured.is_some()
-        && summary.uncertainty.parts(QuantityOfInterest::Restitution).bound.is_some();
+        && summary.uncertainty.of(QuantityOfInterest::Restitution).bound.is_some();
     let row = |quantity: QuantityOfInterest| {
         let (value, theirs) = (ours.number(quantity), hertz.number(quantity));
         let has_unit = quantity != QuantityOfInterest::Restitution;
@@ -214,7 +213,7 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
             (Some(value), Some(unit)) => unit.show(value),
             (Some(value), None) => format!("{value:.4}"),
         };
-        let parts = summary.uncertainty.parts(quantity);
+        let parts = summary.uncertainty.of(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
         let [mesh, neglected, input] = errors.unwrap_or([NONE; 3].map(String::from));
         let own = match parts.bound {
@@ -295,7 +294,7 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
 /// neglected effects may change it by more than this or by an unknown amount.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
     let deficit = 1.0 - summary.collision.restitution?;
-    let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
+    let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);
     let bar = parts.discretisation;
     let known = deficit.abs().max(bar.unwrap_or(0.0));
     if deficit.abs() >= NEARLY_ELASTIC || parts.model.is_none_or(|neglected| neglected > known) {

@@ -5,7 +5,7 @@
 
 use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_collision::QuantityOfInterest;
-use fem_laws::{FirstYield, HertzImpact, Impact, ImpactQuantities, LawFamily};
+use fem_laws::{FirstYield, HertzImpact, ImpactQuantities, LawFamily};
 use fem_material::{FlowRule, RateFactor};
 
 use crate::estimate::Estimate;
@@ -123,24 +123,14 @@ pub(crate) fn law_error(scene: &Scene, estimate: &Estimate) -> Option<QuantityEr
     let (errors, values) = (first.errors(&elements), elements.in_order());
     let own = match is_it {
         true => values,
-        false => of_law(&Reduced::new(scene).ok()?.impact(estimate.hertz.approach_speed()).ok()?),
+        false => {
+            let impact = Reduced::new(scene).ok()?.impact(estimate.hertz.approach_speed()).ok()?;
+            impact.quantities(impact.peak_pressure.unwrap_or(f64::NAN)).in_order()
+        }
     };
     let error = |quantity: QuantityOfInterest| {
         let k = quantity as usize;
         Some((own[k] - values[k]).abs() + errors[k] * values[k])
     };
     Some(QuantityErrors::from_fn(error).checked())
-}
-
-/// Returns the quantities of the impact of a law, in order.
-fn of_law(impact: &Impact) -> [f64; 6] {
-    ImpactQuantities {
-        restitution: impact.restitution,
-        contact_time: impact.contact_time.unwrap_or(f64::INFINITY),
-        peak_force: impact.peak_force,
-        max_approach: impact.max_approach,
-        max_contact_radius: impact.max_contact_radius,
-        peak_pressure: impact.peak_pressure.unwrap_or(f64::NAN),
-    }
-    .in_order()
 }

@@ -31,7 +31,6 @@ pub use relaxation_band::SeriesTail;
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{
-    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PlateSummary,
-    Quantities, RelaxationCoverage, RestSummary, SUMMARY_FILE, Side, Status, StatusSummary,
-    Summary, UncertaintySummary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
+    PlateSummary, Quantities, RelaxationCoverage, RestSummary, SUMMARY_FILE, Side, Status, Summary,
 };

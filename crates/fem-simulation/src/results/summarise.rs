@@ -10,8 +10,8 @@ use super::dent::{DentSummary, dents};
 use super::energy::{Accounts, Energy, energy_key};
 use super::measured::MeasuredSummary;
 use super::summary::{
-    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PlateSummary,
-    Quantities, RestSummary, StatusSummary, Summary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
+    PlateSummary, Quantities, RestSummary, Status, Summary,
 };
 use super::uncertainty::uncertainty;
 use crate::effects::{AdhesionEffect, EffectDecision, EffectDecisions, FiniteStrain};
@@ -62,8 +62,9 @@ impl Summary {
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision, &errors.decisions);
         let uncertainty = uncertainty(simulation, collision, errors, &quantities, &effects);
+        let status = |quantity| Status::of(quantities.number(quantity), &uncertainty.of(quantity));
         Self {
-            status: StatusSummary::of(&quantities, &uncertainty),
+            status: PerQuantity::by(status),
             uncertainty,
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
@@ -273,8 +274,7 @@ fn bar_of(simulation: &Simulation, bounce: &Bounce, errors: &ErrorEstimate) -> P
     };
     let values = quantities(&contact, &mut Numbers { not_finite: Vec::new() });
     let effects = effects(simulation, &contact, &errors.decisions);
-    uncertainty(simulation, &contact, errors, &values, &effects)
-        .parts(QuantityOfInterest::Restitution)
+    uncertainty(simulation, &contact, errors, &values, &effects).of(QuantityOfInterest::Restitution)
 }
 
 /// Returns the dents of bodies that flowed.

@@ -22,7 +22,7 @@ pub struct Summary {
     #[serde(flatten)]
     pub collision: Quantities,
     /// What each of these numbers is.
-    pub status: StatusSummary,
+    pub status: PerQuantity<Status>,
     /// Largest contact force of a single step; `None` for closed forms.
     pub peak_force_raw_n: Option<f64>,
     /// `"true"` (of the deformed bodies) at finite strain, else `"nominal"` (of the undeformed area).
@@ -66,7 +66,7 @@ pub struct Summary {
     /// The effects: whether they were on, why, and the error of neglecting them.
     pub effects: Vec<EffectSummary>,
     /// Uncertainty of the quantities.
-    pub uncertainty: UncertaintySummary,
+    pub uncertainty: PerQuantity<Parts>,
     /// Meshes that were too coarse for the tolerance of the case, in order; `None` if the first one was sufficient.
     pub coarser_meshes: Option<Vec<RefinementLevel>>,
     /// The candidate models if the case leaves the choice open, from the cheapest to the most expensive.
@@ -151,26 +151,26 @@ impl Quantities {
     }
 }
 
-/// Error bars of the quantities, written under their keys in their units.
+/// One value for each quantity, written under its key.
 #[derive(Clone, Copy, Debug)]
-pub struct UncertaintySummary([Parts; 6]);
+pub struct PerQuantity<T>([T; 6]);
 
-impl UncertaintySummary {
-    /// Returns the error bars with the values of `parts`.
-    pub fn by(parts: impl FnMut(QuantityOfInterest) -> Parts) -> Self {
-        Self(QuantityOfInterest::ALL.map(parts))
+impl<T: Copy> PerQuantity<T> {
+    /// Returns the values that `value` gives.
+    pub fn by(value: impl FnMut(QuantityOfInterest) -> T) -> Self {
+        Self(QuantityOfInterest::ALL.map(value))
     }
 
-    /// Returns the error bar of one quantity.
-    pub fn parts(&self, quantity: QuantityOfInterest) -> Parts {
+    /// Returns the value of one quantity.
+    pub fn of(&self, quantity: QuantityOfInterest) -> T {
         self.0[quantity as usize]
     }
 }
 
-impl Serialize for UncertaintySummary {
+impl<T: Copy + Serialize> Serialize for PerQuantity<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(
-            QuantityOfInterest::ALL.map(|quantity| (quantity.key(), self.parts(quantity))),
+            QuantityOfInterest::ALL.map(|quantity| (quantity.key(), self.of(quantity))),
         )
     }
 }
@@ -261,31 +261,6 @@ impl Status {
             Self::Bound => "bound",
             Self::Unknown => "unknown",
         }
-    }
-}
-
-/// The status of each quantity, written under its key.
-#[derive(Clone, Copy, Debug)]
-pub struct StatusSummary([Status; 6]);
-
-impl StatusSummary {
-    /// Returns the status of numbers with error bars.
-    pub fn of(numbers: &Quantities, bars: &UncertaintySummary) -> Self {
-        let status = |quantity| Status::of(numbers.number(quantity), &bars.parts(quantity));
-        Self(QuantityOfInterest::ALL.map(status))
-    }
-
-    /// Returns the status of one quantity.
-    pub fn status(&self, quantity: QuantityOfInterest) -> Status {
-        self.0[quantity as usize]
-    }
-}
-
-impl Serialize for StatusSummary {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(
-            QuantityOfInterest::ALL.map(|quantity| (quantity.key(), self.status(quantity))),
-        )
     }
 }
 

@@ -8,7 +8,7 @@
 use fem_collision::Collision;
 
 use super::input_uncertainty::input_uncertainty;
-use super::summary::{EffectSummary, Parts, Quantities, Side, UncertaintySummary};
+use super::summary::{EffectSummary, Parts, PerQuantity, Quantities, Side};
 use crate::effects::{Effect, EffectStatus, effect_named};
 use crate::error::ErrorEstimate;
 use crate::quantity_errors::QuantityErrors;
@@ -24,11 +24,11 @@ pub(super) fn uncertainty(
     errors: &ErrorEstimate,
     numbers: &Quantities,
     effects: &[EffectSummary],
-) -> UncertaintySummary {
+) -> PerQuantity<Parts> {
     let inputs = input_uncertainty(simulation, collision, numbers);
     let all = model_form_errors(simulation, collision, effects);
     let model = all.iter().fold(QuantityErrors::ZERO, |sum, (_, error)| sum.plus(*error));
-    UncertaintySummary::by(|quantity| {
+    PerQuantity::by(|quantity| {
         let of = |error: &QuantityErrors| {
             let (number, size) = (numbers.number(quantity)?, error.size(quantity)?);
             // Less is rounding.

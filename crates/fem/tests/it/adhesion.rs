@@ -45,7 +45,7 @@ fn adhesion_of(summary: &Summary) -> &EffectDecision {
 }
 
 fn model_bar(summary: &Summary, quantity: QuantityOfInterest) -> Option<f64> {
-    summary.uncertainty.parts(quantity).model
+    summary.uncertainty.of(quantity).model
 }
 
 fn relative(found: f64, expected: f64) -> f64 {

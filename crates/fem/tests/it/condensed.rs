@@ -182,7 +182,7 @@ fn speeds_and_relaxations_share_meshes() {
         let collision = simulation.run(&mut ());
         let bar = |of: &Simulation| {
             let bars = of.summary(&collision).uncertainty;
-            bars.parts(QuantityOfInterest::PeakForce).discretisation.unwrap()
+            bars.of(QuantityOfInterest::PeakForce).discretisation.unwrap()
         };
         let shared = bar(&simulation);
         if k % 7 == 0 {

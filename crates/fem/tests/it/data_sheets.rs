@@ -49,7 +49,7 @@ fn restitution(material: &str, [diameter, speed, temperature]: [&str; 3]) -> (f6
     );
     let summary = summary_of::<&str>(&case, &[]);
     let quantity = QuantityOfInterest::Restitution;
-    let input = summary.uncertainty.parts(quantity).input.unwrap_or(0.0);
+    let input = summary.uncertainty.of(quantity).input.unwrap_or(0.0);
     (summary.collision.number(quantity).unwrap(), input)
 }
 

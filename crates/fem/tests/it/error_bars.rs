@@ -26,7 +26,7 @@ fn relaxing() -> String {
 }
 
 fn value_and_bar(summary: &Summary, quantity: QuantityOfInterest) -> (f64, Parts) {
-    (summary.collision.number(quantity).unwrap(), summary.uncertainty.parts(quantity))
+    (summary.collision.number(quantity).unwrap(), summary.uncertainty.of(quantity))
 }
 
 /// Relative error of the closed forms with finite size; Ting's model without waves agrees with finite elements to 0.02 % at
@@ -281,7 +281,7 @@ fn bars_cost_a_counted_number_of_factors() {
             let simulation = Simulation::sharing(case, &shared).unwrap();
             let collision = simulation.run(&mut ());
             let bars = simulation.summary(&collision).uncertainty;
-            assert!(bars.parts(QuantityOfInterest::PeakForce).discretisation.is_some());
+            assert!(bars.of(QuantityOfInterest::PeakForce).discretisation.is_some());
             let made = (shared.pairs.n_made(), shared.reference_pairs.n_made());
             assert_eq!(made, (own, of_bars), "{model} {speed}");
         }

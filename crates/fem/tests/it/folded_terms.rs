@@ -127,7 +127,7 @@ fn models_without_relaxation_lack_it_beside_folded_terms() {
                 (summary.collision.peak_force_n, ting.peak_force_n, QuantityOfInterest::PeakForce),
             ];
             for (own, known, quantity) in numbers {
-                let bar = summary.uncertainty.parts(quantity).model.unwrap();
+                let bar = summary.uncertainty.of(quantity).model.unwrap();
                 let off = (own.unwrap() - known.unwrap()).abs();
                 assert!(off <= bar, "{model} {quantity:?}: {bar:e} for {off:e}");
                 // Other effects change the others.
@@ -150,7 +150,7 @@ fn folded_fast_terms_are_no_error() {
         assert!(off.abs() < 1e-3, "{model}: {off:e}");
         let none = summary_of(POLYMER, &[model, ELASTIC]);
         let bar = |summary: &Summary| {
-            let bar = summary.uncertainty.parts(QuantityOfInterest::PeakForce).model.unwrap();
+            let bar = summary.uncertainty.of(QuantityOfInterest::PeakForce).model.unwrap();
             bar / summary.collision.peak_force_n.unwrap()
         };
         // Softer bodies are strained a little more.

@@ -126,7 +126,7 @@ fn a_film_is_told_to_stretch() {
         // By hand: β m v of 1.5 mm.
         let warnings = summary.warnings.join("\n");
         assert!(warnings.contains("partner would bend by"), "{model}: {warnings}");
-        let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
+        let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);
         assert_eq!(parts.model, None, "{model}");
     }
     let edge = |set: &str| summary_of(&film, &["model.ting={}", set]).warnings.join("\n");

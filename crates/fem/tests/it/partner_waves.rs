@@ -136,10 +136,8 @@ fn half_spaces_that_relax_are_within_their_bars() {
             ["model.fem={}", "model.ting={}", "model.condensed={}"].map(|model| {
                 let simulation = simulation(&[model, body, &soft, "body.1.approach_speed=0.2"]);
                 let collision = simulation.run(&mut ());
-                let parts = simulation
-                    .summary(&collision)
-                    .uncertainty
-                    .parts(QuantityOfInterest::Restitution);
+                let parts =
+                    simulation.summary(&collision).uncertainty.of(QuantityOfInterest::Restitution);
                 let bar = parts.discretisation.unwrap() + parts.model.unwrap();
                 (collision.restitution.unwrap(), bar)
             });
@@ -184,7 +182,7 @@ fn bars_include_the_own_motion_of_a_body_that_waves_cross_once() {
     let scene = [soft, hard, "body.0.material='soft'", sizes[0], sizes[1]];
     let restitution = |model: &str| {
         let summary = summary_of(BALL, &[&scene[..], &[model]].concat());
-        let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
+        let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);
         (summary.collision.restitution.unwrap(), parts.sum().unwrap())
     };
     let (elements, own) = restitution("model.fem={}");

@@ -107,7 +107,7 @@ fn a_missing_rate_is_in_the_error_bar() {
     let [without, with] = [without, with].map(|simulation| {
         let collision = simulation.run(&mut ());
         let uncertainty = simulation.summary(&collision).uncertainty;
-        let parts = uncertainty.parts(QuantityOfInterest::Restitution);
+        let parts = uncertainty.of(QuantityOfInterest::Restitution);
         (collision.restitution.unwrap(), parts.model.unwrap())
     });
     let change = with.0 - without.0;
@@ -225,7 +225,7 @@ fn an_uncertain_yield_strength_has_a_bar() {
         (QuantityOfInterest::PeakPressure, 0.3),
     ] {
         let [high, low] = ends.each_ref().map(|collision| quantity.of(collision).unwrap());
-        let bar = summary.uncertainty.parts(quantity).input.unwrap();
+        let bar = summary.uncertainty.of(quantity).input.unwrap();
         let ratio = bar / (0.5 * (high - low).abs());
         assert!((1.0 - within..1.0 + within).contains(&ratio), "{quantity:?}: {ratio}");
     }

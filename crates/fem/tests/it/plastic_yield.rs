@@ -218,7 +218,7 @@ fn bounds_hold_for_plastic_impacts() {
             let quantity = QuantityOfInterest::ALL[k];
             let computed = summary.collision.number(quantity).unwrap();
             let plastic = plastic * hertz[k];
-            let holds = match summary.uncertainty.parts(quantity).bound {
+            let holds = match summary.uncertainty.of(quantity).bound {
                 Some(Side::AtMost) => plastic <= computed,
                 Some(Side::AtLeast) => plastic >= computed,
                 // Flow first shortens and then lengthens the contact.
@@ -251,7 +251,7 @@ fn laws_that_dent_carry_their_errors() {
             let hertz = ImpactQuantities::from(&simulation.setup().estimate.hertz).in_order();
             for k in 0..3 {
                 let quantity = QuantityOfInterest::ALL[k];
-                let bar = summary.uncertainty.parts(quantity).model.unwrap();
+                let bar = summary.uncertainty.of(quantity).model.unwrap();
                 let elements = of_hertz[k] * hertz[k];
                 let error = (summary.collision.number(quantity).unwrap() - elements).abs();
                 // The law that stands for elements is within 3 % of them, and says so.

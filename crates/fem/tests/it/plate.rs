@@ -124,7 +124,7 @@ fn bars_of_reduced_models_hold_elements() {
                 [(QuantityOfInterest::Restitution, 2e-4), (QuantityOfInterest::ContactTime, 0.0)]
             {
                 let found = summary.collision.number(quantity).unwrap();
-                let parts = summary.uncertainty.parts(quantity);
+                let parts = summary.uncertainty.of(quantity);
                 let bar = parts.model.unwrap() + parts.discretisation.unwrap();
                 let off = (found - quantity.of(&elements).unwrap()).abs();
                 assert!(off < bar + floor, "{model} {metres} {quantity:?}: {off:e} {bar:e}");
@@ -141,8 +141,7 @@ fn bars_of_elements_hold_the_exact_layer() {
         let summary =
             summary_of(BALL, &["model.fem={}", "output.snapshots=[]", &thickness(metres)]);
         let found = summary.collision.number(QuantityOfInterest::Restitution).unwrap();
-        let bar =
-            summary.uncertainty.parts(QuantityOfInterest::Restitution).discretisation.unwrap();
+        let bar = summary.uncertainty.of(QuantityOfInterest::Restitution).discretisation.unwrap();
         assert!((found - exact).abs() < bar + 1e-4, "{metres}: {found} {bar:e}");
         // That of the first mesh, which is refined if the case asks for it: 0.7 and 1.4 thousandths.
         assert!(bar < 2e-3, "{metres}: {bar:e}");
@@ -213,8 +212,7 @@ fn models_that_cannot_compute_a_plate_say_so() {
 #[test]
 fn waves_from_the_edge_are_told() {
     let set = ["model.law.hertz={}", "body.0.plate.diameter='5 cm'"];
-    let model =
-        |summary: &Summary| summary.uncertainty.parts(QuantityOfInterest::Restitution).model;
+    let model = |summary: &Summary| summary.uncertainty.of(QuantityOfInterest::Restitution).model;
     let decision = decision_on(&simulation_of(BALL, &set), "plate bending").clone();
     assert!(decision.reason.contains("back from its edge"), "{}", decision.reason);
     let summary = summary_of(BALL, &set);

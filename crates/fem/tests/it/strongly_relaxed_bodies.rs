@@ -60,8 +60,7 @@ fn the_pressure_of_a_fluid_is_largest_while_the_contact_is_small() {
     ] {
         let summary = run(&[set, &[FLUID]].concat());
         let pressure = summary.collision.peak_pressure_pa.unwrap();
-        let bar =
-            summary.uncertainty.parts(QuantityOfInterest::PeakPressure).discretisation.unwrap();
+        let bar = summary.uncertainty.of(QuantityOfInterest::PeakPressure).discretisation.unwrap();
         assert!((pressure - exact).abs() < bar, "{set:?}: {pressure} ± {bar}, {exact}");
         assert!(bar / pressure < largest, "{set:?}: {pressure} ± {bar}");
     }
@@ -95,7 +94,7 @@ fn models_agree_within_their_bars() {
     let ting = run(&["model.ting={}"]);
     for quantity in QuantityOfInterest::ALL {
         let bar = |summary: &Summary| {
-            let parts = summary.uncertainty.parts(quantity);
+            let parts = summary.uncertainty.of(quantity);
             parts.discretisation.unwrap() + parts.model.unwrap()
         };
         let [one, other] = [&fem, &ting].map(|it| it.collision.number(quantity).unwrap());

@@ -37,7 +37,7 @@ fn excesses(summary: &Summary) -> [f64; 4] {
     ];
     allowed.map(|(quantity, tolerance)| {
         let value = summary.collision.number(quantity).unwrap();
-        let bar = summary.uncertainty.parts(quantity).discretisation.unwrap();
+        let bar = summary.uncertainty.of(quantity).discretisation.unwrap();
         bar / quantity.scale(value) / tolerance
     })
 }
@@ -222,7 +222,7 @@ fn bars_do_not_depend_on_the_place_of_the_edge() {
         let set = [FEM, "mesh.staggered=true", "time.mass_scaling=1e-4", size.as_str()];
         let (simulation, collision) = computed(ELASTIC_GLASS, &set);
         let summary = simulation.summary(&collision);
-        let bar = summary.uncertainty.parts(QuantityOfInterest::PeakForce).discretisation.unwrap();
+        let bar = summary.uncertainty.of(QuantityOfInterest::PeakForce).discretisation.unwrap();
         let share = bar / summary.collision.number(QuantityOfInterest::PeakForce).unwrap();
         assert!(share < 1.5e-3, "{size}: {share}");
     }

@@ -33,7 +33,7 @@ fn pair(set: &[&str]) -> [Option<f64>; 6] {
     let summary = summary_of(text, &[&["model.hertz={}"], set].concat());
     QuantityOfInterest::ALL.map(|quantity| {
         let value = summary.collision.number(quantity).unwrap();
-        Some(summary.uncertainty.parts(quantity).input? / value)
+        Some(summary.uncertainty.of(quantity).input? / value)
     })
 }
 
@@ -78,10 +78,10 @@ fn the_uncertainty_follows_hertz_powers() {
 fn relaxation_has_an_uncertainty() {
     let rate = "material.glass.relaxation.terms.0.decay_rate='2708 1/s ± 10 %'";
     let summary = summary_of(GLASS, &["model.ting={}", rate, "output.snapshots=[]"]);
-    let input = summary.uncertainty.parts(QuantityOfInterest::Restitution).input.unwrap();
+    let input = summary.uncertainty.of(QuantityOfInterest::Restitution).input.unwrap();
     let loss = 1.0 - summary.collision.restitution.unwrap();
     assert!((0.09..0.105).contains(&(input / loss)), "{input} {loss}");
-    let sum = summary.uncertainty.parts(QuantityOfInterest::Restitution);
+    let sum = summary.uncertainty.of(QuantityOfInterest::Restitution);
     assert!(sum.sum().unwrap() >= input);
 }
 
@@ -97,7 +97,7 @@ fn waves_have_an_uncertainty() {
             summary_of(NYLON_ON_BLOCK, &set)
         };
         let restitution = |modulus: &str| of(modulus).collision.restitution.unwrap();
-        let both = of("2.93 ± 0.29 GPa").uncertainty.parts(QuantityOfInterest::Restitution);
+        let both = of("2.93 ± 0.29 GPa").uncertainty.of(QuantityOfInterest::Restitution);
         let expected = 0.5 * (restitution("3.22 GPa") - restitution("2.64 GPa")).abs();
         let found = both.input.unwrap();
         // The closed form of the waves is right to 15 %.

@@ -1,7 +1,7 @@
 //! Model-form errors against explicit elements at finite strain, which have every effect of these scenes.
 
 use fem::QuantityOfInterest;
-use fem::results::{Parts, Quantities, Side, Status, Summary, UncertaintySummary};
+use fem::results::{Parts, PerQuantity, Quantities, Side, Status, Summary};
 
 use crate::scene::{GLASS, RUBBER_BALL as RUBBER, summary_of as summary};
 
@@ -22,8 +22,8 @@ fn numbers(quantities: &Quantities) -> [Option<f64>; 6] {
     QuantityOfInterest::ALL.map(|quantity| quantities.number(quantity))
 }
 
-fn parts(uncertainty: &UncertaintySummary) -> [Parts; 6] {
-    QuantityOfInterest::ALL.map(|quantity| uncertainty.parts(quantity))
+fn parts(uncertainty: &PerQuantity<Parts>) -> [Parts; 6] {
+    QuantityOfInterest::ALL.map(|quantity| uncertainty.of(quantity))
 }
 
 fn model(summary: &Summary) -> [f64; 6] {
@@ -129,7 +129,7 @@ fn missing_quantities_have_no_error() {
     let stuck = "material.glass.relaxation.terms.0.decay_rate='3e6 1/s'";
     let summary = summary(GLASS, &[TING, stuck, NO_SNAPSHOTS]);
     assert_eq!(summary.collision.contact_time_s, None);
-    assert_eq!(summary.uncertainty.parts(QuantityOfInterest::ContactTime).model, None);
+    assert_eq!(summary.uncertainty.of(QuantityOfInterest::ContactTime).model, None);
     assert!(summary.collision.max_approach_m.is_some());
     // The strain is twice that of all computed collisions.
     let flat = ["effects.finite_strain='off'", "body.1.approach_speed='60 m/s'", NO_SNAPSHOTS];
@@ -146,10 +146,10 @@ fn numbers_without_a_known_effect_are_bounds() {
                  approach_speed = '3 m/s'\n";
     let found = summary(nylon, &[TING]);
     for quantity in QuantityOfInterest::ALL {
-        assert_eq!(found.status.status(quantity), Status::Bound, "{quantity:?}");
-        assert_eq!(found.uncertainty.parts(quantity).model, None);
+        assert_eq!(found.status.of(quantity), Status::Bound, "{quantity:?}");
+        assert_eq!(found.uncertainty.of(quantity).model, None);
     }
-    let side = |quantity| found.uncertainty.parts(quantity).bound;
+    let side = |quantity| found.uncertainty.of(quantity).bound;
     assert_eq!(side(QuantityOfInterest::Restitution), Some(Side::AtMost));
     assert_eq!(side(QuantityOfInterest::MaxApproach), Some(Side::AtLeast));
     assert_eq!(found.warnings.len(), 1, "{:?}", found.warnings);
@@ -158,10 +158,10 @@ fn numbers_without_a_known_effect_are_bounds() {
     let [restitution, others @ ..] = parts(&slow.uncertainty);
     assert_eq!((restitution.model, restitution.sum()), (None, None));
     assert!(others.iter().all(|parts| parts.sum().is_some() && parts.bound.is_none()));
-    assert_eq!(slow.status.status(QuantityOfInterest::ContactTime), Status::Computed);
+    assert_eq!(slow.status.of(QuantityOfInterest::ContactTime), Status::Computed);
     // It is meant so.
     let meant = ["material.'lib:nylon'.elastic=true", "material.'lib:steel'.elastic=true"];
     let meant = summary(nylon, &[TING, "body.1.approach_speed='1 cm/s'", meant[0], meant[1]]);
-    assert_eq!(meant.status.status(QuantityOfInterest::Restitution), Status::Computed);
+    assert_eq!(meant.status.of(QuantityOfInterest::Restitution), Status::Computed);
     assert!(!meant.warnings.iter().any(|it| it.contains("yields") || it.contains("damping")));
 }

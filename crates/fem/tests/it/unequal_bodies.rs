@@ -82,7 +82,7 @@ fn moved_mass_is_within_the_bars() {
         let bars = simulation.summary(&collision).uncertainty;
         for quantity in QuantityOfInterest::ALL {
             let [value, truth] = [&collision, &without].map(|it| quantity.of(it).unwrap());
-            let bar = bars.parts(quantity).discretisation.unwrap();
+            let bar = bars.of(quantity).discretisation.unwrap();
             assert!(
                 (value - truth).abs() <= bar,
                 "{scene:?} {}: {value} {truth} {bar}",

@@ -106,7 +106,7 @@ fn slow_bulk_waves_are_reported() {
         let bar = simulation
             .summary(&condensed)
             .uncertainty
-            .parts(QuantityOfInterest::Restitution)
+            .of(QuantityOfInterest::Restitution)
             .model
             .unwrap();
         assert!(lost > 5e-3 && (lost / 3.0..3.0 * lost).contains(&bar), "{lost:e} {bar:e}");

@@ -49,13 +49,12 @@ fn summary(
 /// adhesion would take a tenth of the restitution and the run lacks it, it is no computed number without an error bar.
 fn check_numbers(of: &str, summary: &fem::Summary) {
     for quantity in QuantityOfInterest::ALL {
-        let (status, parts) =
-            (summary.status.status(quantity), summary.uncertainty.parts(quantity));
+        let (status, parts) = (summary.status.of(quantity), summary.uncertainty.of(quantity));
         let number = summary.collision.number(quantity);
         assert_eq!(status, Status::of(number, &parts), "{of}: {quantity:?}");
         assert!(parts.bound.is_none() || status == Status::Bound, "{of}: {quantity:?}");
     }
-    let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
+    let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);
     let is_decided = summary.effects.iter().any(|it| {
         let change = it.error_if_left_out.and_then(|change| change.restitution);
         let names = ["plastic flow", "adhesion"];

@@ -232,8 +232,7 @@ fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
             QuantityOfInterest::ContactTime,
             QuantityOfInterest::PeakForce,
         ];
-        [0, 1, 2]
-            .map(|k: usize| bars.parts(quantities[k]).discretisation.unwrap_or(0.0) / scales[k])
+        [0, 1, 2].map(|k: usize| bars.of(quantities[k]).discretisation.unwrap_or(0.0) / scales[k])
     };
     let (ours, theirs) = (of(ours), of(theirs));
     [0, 1, 2].map(|k: usize| ours[k] + theirs[k])
