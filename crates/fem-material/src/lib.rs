@@ -25,6 +25,7 @@ mod flow;
 mod hooke;
 mod material;
 mod prony;
+mod prony_merging;
 mod relaxation_step;
 mod shift;
 

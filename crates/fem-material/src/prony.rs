@@ -17,6 +17,7 @@
 //! positive times make g completely monotonic, so no strain history gains energy.
 
 use crate::error::{MaterialError, not_negative, positive};
+use crate::prony_merging::merged;
 
 /// One Maxwell element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,6 +110,13 @@ impl PronySeries {
             relaxation_time: viscosity / (series + kelvin),
         };
         Self::new(vec![term], acts_on)
+    }
+
+    /// Returns the same relaxation, within 1e-9 of its weights at any time, with at most seven terms in an octave of rates; with
+    /// as many or fewer the series is unchanged.
+    pub fn merged(self) -> Self {
+        let Self { terms, acts_on, equilibrium_weight } = self;
+        Self { terms: merged(terms), acts_on, equilibrium_weight }
     }
 
     /// Returns g at `time` (s) after a step of strain; 1 at and before 0, up to the rounding of the sum.

@@ -217,9 +217,9 @@ pub(super) fn check_temperature(check: &Check<'_>, file: &CaseFile) -> Result<()
     Ok(())
 }
 
-/// Creates the series of a relaxation.
+/// Creates the series of a relaxation; terms beyond seven in an octave of rates cost time and change nothing.
 pub(super) fn series(
     checked: &CheckedRelaxation,
 ) -> Result<PronySeries, fem_material::MaterialError> {
-    PronySeries::new(checked.terms.clone(), checked.acts_on)
+    PronySeries::new(checked.terms.clone(), checked.acts_on).map(PronySeries::merged)
 }

@@ -306,3 +306,44 @@ fn shift_laws_have_their_values() {
     let known = [None, Some(2.0), Some(1.5), Some(0.0), Some(-0.25), Some(-0.5), None];
     assert_eq!(found, known);
 }
+
+/// The given series itself is the reference: smooth, ragged and coinciding times over many decades and over less than one.
+#[test]
+fn many_close_terms_relax_as_seven_in_an_octave() {
+    let spread = |decades: f64, n: usize, weight: fn(usize) -> f64| -> Vec<(f64, f64)> {
+        let sum: f64 = (0..n).map(weight).sum();
+        let time = |k: usize| 10f64.powf(-6.0 + decades * k as f64 / (n - 1) as f64);
+        (0..n).map(|k| (0.97 * weight(k) / sum, time(k))).collect()
+    };
+    let ragged = |k: usize| ((k * 7919) % 101) as f64 / 101.0;
+    let cases = [
+        (spread(2.0, 1000, |_| 1.0), 49),
+        (spread(8.0, 1000, ragged), 7 * 27),
+        (spread(0.2, 40, ragged), 7),
+        (vec![(0.01, 1e-3); 60], 1),
+        (spread(0.3, 8, |k| if k == 3 { 1.0 } else { 1e-12 }), 7),
+    ];
+    for (terms, most) in cases {
+        let given = series(&terms, ActsOn::All).unwrap();
+        let merged = given.clone().merged();
+        let n_terms = merged.terms().len();
+        assert!(n_terms <= most, "{n_terms} terms of {}", terms.len());
+        assert!(merged.terms().iter().all(|term| term.weight > 0.0));
+        for k in 0..400 {
+            let time = 10f64.powf(-8.0 + 0.03 * k as f64);
+            let difference = merged.relaxation(time) - given.relaxation(time);
+            assert!(
+                difference.abs() < 1e-9,
+                "{difference:e} at {time:e} s of {} terms",
+                terms.len()
+            );
+            let [ours, exact] = [&merged, &given].map(|of| of.complex_modulus(time.recip()));
+            for part in 0..2 {
+                let difference = ours[part] - exact[part];
+                assert!(difference.abs() < 1e-8, "{difference:e} of part {part} at {time:e} s");
+            }
+        }
+    }
+    let few = three_terms();
+    assert_eq!(few.clone().merged(), few);
+}
