@@ -18,6 +18,8 @@ pub(crate) struct Calibration {
     pub safety_factor: [f64; 6],
     /// Constant c of the error c (h/a)ᵖ that the place of the contact's edge between two nodes causes.
     pub edge: [f64; 6],
+    /// What a modulus that is lost within one contact time adds to that constant.
+    pub edge_of_relaxed: [f64; 6],
     /// Power p of the element size.
     pub edge_power: i32,
     /// Scatter of the quantities on any mesh, however fine.
@@ -31,6 +33,7 @@ pub(super) const EXPLICIT: Calibration = Calibration {
     name: "EXPLICIT",
     safety_factor: [1.25; 6],
     edge: [0.002, 0.008, 0.008, 0.01, 0.05, 0.1],
+    edge_of_relaxed: [0.0; 6],
     edge_power: 2,
     scatter: SCATTER_AT_SMALL_STRAIN,
     moved_mass: MOVED_MASS,
@@ -43,6 +46,7 @@ pub(super) const COARSER_RUN: Calibration = Calibration {
     name: "COARSER_RUN",
     safety_factor: [1.5; 6],
     edge: [0.002, 0.03, 0.01, 0.01, 0.04, 0.1],
+    edge_of_relaxed: [0.0; 6],
     edge_power: 2,
     scatter: [1e-4, 4.5e-3, 2e-3, 1e-4, 8e-3, 8e-3],
     moved_mass: MOVED_MASS,
@@ -68,6 +72,7 @@ const FLOW: Calibration = Calibration {
     name: "FLOW",
     safety_factor: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0],
     edge: [0.03, 0.03, 0.021, 0.002, 0.09, 0.2],
+    edge_of_relaxed: [0.0; 6],
     edge_power: 1,
     scatter: [2e-4, 5e-4, 5e-4, 2e-4, 1e-3, 5e-3],
     moved_mass: MOVED_MASS,
@@ -84,11 +89,14 @@ impl Calibration {
     }
 }
 
-/// Constants for condensed bodies with one coarser run.
+/// Constants for condensed bodies with one coarser run. Each node that comes into contact meets the unrelaxed modulus, so
+/// the force of bodies that lose much of it is a staircase: of 1817 random scenes on walls, blocks, like and unlike balls, 98 %
+/// of those that lose more than half of their modulus hold with the constants of relaxed bodies.
 pub(super) const CONDENSED: Calibration = Calibration {
     name: "CONDENSED",
     safety_factor: [1.5; 6],
     edge: [0.002, 0.011, 0.004, 0.032, 0.7, 0.45],
+    edge_of_relaxed: [0.014, 0.03, 0.2, 0.0, 1.0, 0.1],
     edge_power: 2,
     scatter: SCATTER_AT_SMALL_STRAIN,
     moved_mass: MOVED_MASS,

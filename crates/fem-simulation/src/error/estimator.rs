@@ -71,8 +71,11 @@ impl ErrorEstimator {
         let at_pressure = collision.peak_pressure_radius.map_or(widest, |radius| radius / size);
         let estimated = self.reference_error(simulation, collision, size, values, widest);
         let Some((errors, calibration)) = estimated else { return [None; 6] };
-        let moved_share = moved_share(simulation, collision);
-        bar_parts(errors, calibration, [widest, at_pressure], moved_share)
+        let shares = Shares {
+            relaxed: simulation.setup().estimate.relaxed,
+            moved: moved_share(simulation, collision),
+        };
+        bar_parts(errors, calibration, [widest, at_pressure], shares)
     }
 
     /// Returns the distances from the Richardson limits of the reference runs, the restitution's absolute, all others
@@ -142,7 +145,8 @@ impl ErrorEstimator {
         let subject = EstimatedCollision::planned(simulation)?;
         let (errors, values) = self.runs.condensed(&subject)?;
         let across = values[QuantityOfInterest::MaxContactRadius as usize]? / subject.size;
-        Some(bar_parts(errors, &EXPLICIT, [across; 2], elements.moved_share))
+        let shares = Shares { relaxed: setup.estimate.relaxed, moved: elements.moved_share };
+        Some(bar_parts(errors, &EXPLICIT, [across; 2], shares))
     }
 
     /// Returns the element updates of a collision over those that closed forms expect, from a coarser run; 1 if closed
@@ -181,25 +185,35 @@ fn needs_own(simulation: &Simulation, collision: &Collision) -> bool {
     estimate.is_none_or(|estimate| needs_own_reference(&estimate, is_finite()))
 }
 
+/// What floors of the bars are proportional to.
+#[derive(Clone, Copy)]
+struct Shares {
+    /// Share of the modulus that is lost within one contact time.
+    relaxed: f64,
+    /// Share of the mass that is moved for a longer time step.
+    moved: f64,
+}
+
 /// Returns the parts of all bars.
 fn bar_parts(
     errors: Values,
     calibration: &Calibration,
     [widest, at_pressure]: [f64; 2],
-    moved_share: f64,
+    shares: Shares,
 ) -> [Option<BarParts>; 6] {
     QuantityOfInterest::ALL.map(|quantity| {
         let is_pressure = quantity == QuantityOfInterest::PeakPressure;
         let across = if is_pressure { at_pressure } else { widest };
         let k = quantity as usize;
+        let edge = calibration.edge[k] + calibration.edge_of_relaxed[k] * shares.relaxed;
         Some(BarParts {
             constants: calibration.name,
             reference_error: errors[k]?,
             safety_factor: calibration.safety_factor[k],
             across,
-            edge: calibration.edge[k] / across.max(1.0).powi(calibration.edge_power),
+            edge: edge / across.max(1.0).powi(calibration.edge_power),
             scatter: calibration.scatter[k],
-            moved_mass: calibration.moved_mass[k] * moved_share,
+            moved_mass: calibration.moved_mass[k] * shares.moved,
         })
     })
 }
@@ -237,25 +251,27 @@ fn of_tolerance(collision: &Collision, tolerance: f64) -> QuantityErrors {
 mod tests {
     use super::*;
 
-    /// The bar is F_s |Δ| + c (h/a)² + scatter + moved mass, and the pressure's floor depends on its own radius.
+    /// The bar is F_s |Δ| + (c + c′ relaxed) (h/a)² + scatter + moved mass, and the pressure's floor depends on its own radius.
     #[test]
     fn error_bar_is_the_sum_of_its_documented_parts() {
         let calibration = Calibration {
             name: "",
             safety_factor: [2.0; 6],
             edge: [0.16; 6],
+            edge_of_relaxed: [0.32; 6],
             edge_power: 2,
             scatter: [5e-4; 6],
             moved_mass: [0.3; 6],
         };
-        let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
+        let shares = Shares { relaxed: 0.5, moved: 0.01 };
+        let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], shares);
         for (k, parts) in parts.into_iter().enumerate() {
-            let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };
+            let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.08 } else { 0.02 };
             let expected = 2e-3 + edge + 5e-4 + 0.01 * 0.3;
             assert!((parts.unwrap().sum() - expected).abs() < 1e-12, "{k}");
         }
         let mut errors = [Some(0.0); 6];
         errors[1] = None;
-        assert_eq!(bar_parts(errors, &calibration, [4.0; 2], 0.0)[1], None);
+        assert_eq!(bar_parts(errors, &calibration, [4.0; 2], shares)[1], None);
     }
 }
