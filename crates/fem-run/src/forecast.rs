@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use fem::error::CONDENSED_REFERENCE_TIME;
 use fem::{Cost, ErrorEstimator, RefinementBound, Simulation};
+use fem_case::Body;
 use fem_case::engineering::{Unit, number};
 use fem_collision::{Monitor, OutputRequest, Phase, Progress};
 use indicatif::{HumanCount, HumanDuration};
@@ -269,4 +270,13 @@ mod tests {
         let nothing = Patient { seen: (5.0, 0.0), ..patient };
         assert!((nothing.collision() - 5.0).abs() < 1e-12);
     }
+}
+
+/// Describes the time of a model without a mesh.
+pub fn closed_form_time(simulation: &Simulation) -> &'static str {
+    const MANY_TERMS: usize = 20;
+    let materials = simulation.case().scene().bodies().iter().filter_map(Body::material);
+    let series = materials.filter_map(|material| material.relaxation());
+    let n_terms: usize = series.map(|series| series.terms().len()).sum();
+    if n_terms > MANY_TERMS { "seconds at most" } else { "milliseconds" }
 }

@@ -13,7 +13,7 @@ use fem_laws::laws::ContactLaw;
 
 use crate::{
     arguments::case::{CaseArguments, ToleranceArguments},
-    forecast::{Forecast, estimated, estimated_count, estimated_time},
+    forecast::{Forecast, closed_form_time, estimated, estimated_count, estimated_time},
     progress::stopwatch::peak_memory_with,
     text::{Failure, headed, mesh_table, pairs, run_report, standard_output, table},
 };
@@ -118,7 +118,9 @@ fn expect(
             let chosen = by_tolerance(simulation);
             format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
         }
-        Cost::ClosedForm { law } => one_degree_of_freedom(&setup.description, law.as_ref()),
+        Cost::ClosedForm { law } => {
+            one_degree_of_freedom(&setup.description, law.as_ref(), closed_form_time(simulation))
+        }
     };
     format!(
         "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the error of leaving each one out (?: not known)\n{}",
@@ -259,7 +261,7 @@ fn costs(
 }
 
 /// Returns model and cost of a model with one degree of freedom.
-fn one_degree_of_freedom(description: &str, law: Option<&ContactLaw>) -> String {
+fn one_degree_of_freedom(description: &str, law: Option<&ContactLaw>, time: &str) -> String {
     let force = law.filter(|law| law.elastic_plastic().is_none()).map(|law| {
         format!(
             "F = K x^{} + C x^{} dx/dt, K = {:.5e} and C = {:.5e} SI",
@@ -271,7 +273,7 @@ fn one_degree_of_freedom(description: &str, law: Option<&ContactLaw>) -> String 
     });
     let mut rows = vec![["computes", description].map(String::from)];
     rows.extend(force.map(|force| ["force".to_string(), force]));
-    rows.push(["cost", "milliseconds"].map(String::from));
+    rows.push(["cost", time].map(String::from));
     format!("Model\n{}", table(&[Left, Left], rows))
 }
 

@@ -14,7 +14,7 @@ use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::HumanCount;
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments, parse_count};
-use crate::forecast::{Forecast, estimated, estimated_count, estimated_time};
+use crate::forecast::{Forecast, closed_form_time, estimated, estimated_count, estimated_time};
 use crate::progress::RunProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::progress::stopwatch::Timed;
@@ -104,6 +104,10 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         None => estimator.refine_before_run(simulation, || true),
     };
     check_memory(&simulation, &estimator)?;
+    if !matches!(simulation.setup().cost, Cost::ClosedForm { .. }) {
+        // Models that step have a state to write whenever they are asked to end.
+        interrupt.watch();
+    }
     if !options.quiet {
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
         let announced = Announced { simulation: &simulation, estimator: &estimator, forecast };
@@ -276,7 +280,9 @@ impl Announced<'_> {
                 };
                 format!("{} elements{points}{}", HumanCount(elements), all(factors))
             }
-            Cost::ClosedForm { .. } => return format!("{}, milliseconds", setup.description),
+            Cost::ClosedForm { .. } => {
+                return format!("{}, {}", setup.description, closed_form_time(simulation));
+            }
         };
         let contacts = simulation.case().scene().gravity().map_or(1, |gravity| gravity.bounces);
         let each = if contacts > 1 { " per contact" } else { "" };

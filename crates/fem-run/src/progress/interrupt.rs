@@ -1,5 +1,6 @@
 //! Ctrl-C and the signals that end a process.
 
+use std::io::{Write, stderr};
 use std::process::exit;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,12 +21,16 @@ pub fn survive_file_limits() {
     }
 }
 
+/// Whether the process is asked to end. Until somebody watches, nothing has been computed that is worth keeping, and a signal
+/// ends the process at once.
 #[derive(Clone, Debug, Default)]
-pub struct Interrupt(Arc<AtomicBool>);
+pub struct Interrupt {
+    is_requested: Arc<AtomicBool>,
+    is_watched: Arc<AtomicBool>,
+}
 
 impl Interrupt {
-    /// Listens to the signals that ask a process to end. The first one requests an orderly end, and a later SIGINT, SIGTERM or
-    /// SIGHUP ends the process at once. SIGXCPU, which comes again every second, and SIGUSR1 are what batch systems send before a
+    /// Listens to the signals that ask a process to end. The first one requests an orderly end if somebody watches, and a later SIGINT, SIGTERM or SIGHUP ends the process at once. SIGXCPU, which comes again every second, and SIGUSR1 are what batch systems send before a
     /// job's time is over.
     pub fn listen() -> Self {
         let interrupt = Self::default();
@@ -65,7 +70,11 @@ impl Interrupt {
     }
 
     fn request(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.is_requested.store(true, Ordering::Relaxed);
+        if !self.is_watched.load(Ordering::Relaxed) {
+            let _ = writeln!(stderr(), "error: interrupted; no result was written");
+            exit(Status::Interrupted as i32);
+        }
     }
 
     fn request_or_exit(&self, first: &mut Option<Instant>) {
@@ -75,7 +84,13 @@ impl Interrupt {
         }
     }
 
+    /// From now on a request is seen to.
+    pub fn watch(&self) {
+        self.is_watched.store(true, Ordering::Relaxed);
+    }
+
     pub fn is_requested(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.watch();
+        self.is_requested.load(Ordering::Relaxed)
     }
 }

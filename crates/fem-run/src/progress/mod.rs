@@ -81,7 +81,9 @@ impl RunProgress {
         Self { interrupt, display, next_share, last_line, first: None }
     }
 
+    /// Ends the display. What has been computed is written whole from now on, also of a model that never reported.
     pub fn finish(self) {
+        self.interrupt.watch();
         self.display.finish();
     }
 }

@@ -105,6 +105,36 @@ mod signals {
         assert!(summary["bodies"][0]["mass_kg"].as_f64().unwrap() > 0.0);
     }
 
+    /// The collision takes seconds, within which nothing could be kept.
+    #[test]
+    fn a_model_without_steps_ends_at_once_and_writes_nothing() {
+        let place = Place::new();
+        let term = |k: i32| {
+            let time = 10f64.powf(-6.0 + f64::from(k) / 30.0);
+            format!("{{ weight = 0.016, relaxation_time = {time:e} }}")
+        };
+        let terms: Vec<String> = (0..60).map(term).collect();
+        let case = format!(
+            "material.gel = {{ density = 1200, youngs_modulus = 2e9, poissons_ratio = 0.4, \
+             relaxation = {{ acts_on = \"all\", terms = [{}] }} }}\nmodel = \"ting\"\n\
+             [[body]]\nname = \"block\"\nhalf_space = {{}}\nmaterial = \"gel\"\n\
+             [[body]]\nname = \"ball\"\nsphere = {{ diameter = 0.01 }}\nmaterial = \"gel\"\napproach_speed = 0.1\n",
+            terms.join(", ")
+        );
+        place.write("gel.toml", &case);
+        let mut command = place.command("gel.toml");
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut stderr = BufReader::new(child.stderr.take().unwrap());
+        let mut text = String::new();
+        stderr.read_line(&mut text).unwrap();
+        assert!(text.contains("seconds at most"), "{text}");
+        kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+        stderr.read_to_string(&mut text).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{text}");
+        assert!(text.ends_with("error: interrupted; no result was written\n"), "{text}");
+        assert!(!place.path("runs/gel").exists());
+    }
+
     #[test]
     fn only_an_interrupted_run_with_force_replaces_an_older_result() {
         let place = Place::new();
