@@ -34,7 +34,7 @@ const WINDOW_OVER_TIME_SINCE_TOUCH: f64 = 1.0 / 8.0;
 /// Width of the window of a flowing contact's pressure over the duration of the pulse.
 const STEADY_WINDOW: f64 = 1.0 / 8.0;
 /// Fraction of the largest contact radius from which that pressure counts.
-const STEADY_RADIUS_SHARE: f64 = 0.5;
+const STEADY_RADIUS_SHARE: f64 = 0.7;
 /// Largest number of samples; beyond it every second one is dropped.
 const MAX_SAMPLES: usize = 4096;
 /// Largest distance of two samples in windows; beyond it a mean is worse than the largest value of a step.
@@ -158,7 +158,7 @@ impl ForcePulse {
     ///
     /// The pressure of a contact that flows hardly changes in time, while its reading on the axis swings by a fifth as nodes
     /// join one by one. The window is therefore an eighth of the contact, which lowers an elastic peak by 0.3 %, while the
-    /// radius is at least half of its largest.
+    /// radius is at least 0.7 of its largest: below that few elements are in contact.
     pub fn steady_pressure(&self, largest_force: f64) -> Option<f64> {
         let largest_radius = self.samples.iter().map(|sample| sample.radius).fold(0.0, f64::max);
         let impulse = self.samples.last()?.impulse;
