@@ -26,6 +26,8 @@ def material(name, modulus, density):
         left -= weight
         terms.append(f'{{ weight = {weight:.4g}, relaxation_time = "{10 ** random.uniform(-7, -1):.4g} s" }}')
     lines = [f'density = "{density:.5g} kg/m^3"', f'youngs_modulus = "{modulus:.5g} Pa"', f"poissons_ratio = {nu:.4g}"]
+    # No further loss and no strength are meant, or most restitutions would be bounds.
+    lines.append("elastic = true")
     if terms:
         acts_on = random.choice(["all", "shear"])
         lines.append(f'relaxation = {{ acts_on = "{acts_on}", terms = [{", ".join(terms)}] }}')

@@ -47,34 +47,11 @@ def remedies(warning, summary):
     """Returns the overrides that a warning asks for; none for a warning without a rule here."""
     bodies = {body["name"]: body.get("material") for body in summary["case"]["body"]}
     materials = summary["case"]["material"]
-
-    def strength(material):
-        given = materials[material].get("yield_strength", 5e7)
-        return given["value"] if isinstance(given, dict) else given
-
-    def flowing(material):
-        """Returns overrides by which a material flows, in place of its relaxation if it has one."""
-        rule = f"{{ yield_strength = '{strength(material)} Pa' }}"
-        if "relaxation" not in materials[material]:
-            return [f"material.'{material}'.flow={rule}"]
-        keys = ["density", "youngs_modulus", "poissons_ratio"]
-        values = {key: materials[material][key] for key in keys}
-        values = {key: value["value"] if isinstance(value, dict) else value for key, value in values.items()}
-        own = f"material.own={{ {', '.join(f'{key} = {value}' for key, value in values.items())}, flow = {rule} }}"
-        places = [k for k, body in enumerate(summary["case"]["body"]) if body.get("material") == material]
-        return [own, *(f"body.{k}.material='own'" for k in places)]
-
-    if "which is softer, its material.NAME.yield_strength" in warning:
-        softer = bodies[warning.split("plastic flow give ")[1].split(",")[0]]
-        return flowing(softer) if "relaxation" in materials[softer] else [f"material.'{softer}'.yield_strength='50 MPa'"]
-    if "yields too: with its own" in warning:
-        return flowing(bodies[warning.split(" yields too")[0].split("; ")[-1]])
-    if "computes plastic flow" in warning:
-        return [override for name, material in bodies.items() if name in warning.split(": ")[0] for override in flowing(material)]
-    if "set material.NAME.flow.rate" in warning:
+    if "the damping of" in warning:
+        return [f"{re.search('or (material.*[.]elastic) = true', warning)[1]}=true"]
+    if given := re.search("no rate dependence of (.*) is given", warning):
         rate = "flow.rate.johnson_cook={ c = 0, reference_rate = 1 }"
-        said = warning.split(" does not depend")[0]
-        return [f"material.'{material}'.{rate}" for name, material in bodies.items() if said.endswith(name)]
+        return [f"material.'{bodies[given[1]]}'.{rate}"]
     if given := re.search(r'set (mesh\.\w+) = "(.*?)"', warning):
         return [f"{given[1]}='{given[2]}'"]
     if "force finite strain on" in warning:
