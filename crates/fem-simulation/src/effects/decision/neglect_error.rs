@@ -33,7 +33,8 @@ pub struct EffectStatus {
 /// Change of a collision's results if an effect is neglected, estimated by closed forms. All are
 /// magnitudes; `None` if there is no estimate.
 ///
-/// The estimates are good within a factor of three; tests hold them to that.
+/// The estimates are good within a factor of three; tests hold them to that. What vibrations give back depends on their phase at
+/// the end of the contact: glass balls of 22 mm at 20 and 50 m/s change by a fifth of the estimates of force and restitution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct NeglectError {
     /// Change of the restitution.
