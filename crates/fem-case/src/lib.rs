@@ -74,6 +74,7 @@ pub use quantity::{
 pub use scene::body::{Body, MeasuredBand, Plate, Shape};
 pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
+pub use scene::plausibility::MAX_MODULUS_OF_POLYMERS;
 pub use scene::{
     Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, UncertainInput,
     WorkOfAdhesion, impact_speed,

@@ -72,9 +72,9 @@ fn gauss_rule(octave: &[PronyTerm]) -> Vec<PronyTerm> {
 
 /// x p̂_k = n_{k+1} p̂_{k+1} + c_k p̂_k + n_k p̂_{k−1}, the recurrence of the orthonormal polynomials of a measure.
 struct Recurrence {
-    /// c_k.
+    /// The coefficients c_k.
     centres: Vec<f64>,
-    /// n_k; the first is the square root of the whole weight.
+    /// The coefficients n_k, of which the first is the square root of the whole weight.
     norms: Vec<f64>,
 }
 

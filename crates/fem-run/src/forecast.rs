@@ -234,6 +234,15 @@ impl Monitor for Patient {
     }
 }
 
+/// Describes the time of a model without a mesh.
+pub fn closed_form_time(simulation: &Simulation) -> &'static str {
+    const MANY_TERMS: usize = 20;
+    let materials = simulation.case().scene().bodies().iter().filter_map(Body::material);
+    let series = materials.filter_map(|material| material.relaxation());
+    let n_terms: usize = series.map(|series| series.terms().len()).sum();
+    if n_terms > MANY_TERMS { "seconds at most" } else { "milliseconds" }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -270,13 +279,4 @@ mod tests {
         let nothing = Patient { seen: (5.0, 0.0), ..patient };
         assert!((nothing.collision() - 5.0).abs() < 1e-12);
     }
-}
-
-/// Describes the time of a model without a mesh.
-pub fn closed_form_time(simulation: &Simulation) -> &'static str {
-    const MANY_TERMS: usize = 20;
-    let materials = simulation.case().scene().bodies().iter().filter_map(Body::material);
-    let series = materials.filter_map(|material| material.relaxation());
-    let n_terms: usize = series.map(|series| series.terms().len()).sum();
-    if n_terms > MANY_TERMS { "seconds at most" } else { "milliseconds" }
 }

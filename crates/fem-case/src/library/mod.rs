@@ -9,10 +9,12 @@ mod measured_restitution;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+use fem_material::{ElasticModuli, ModuliInput};
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
+use crate::quantity::{Quantity, Stress};
 use crate::schema::{CaseFile, FlowPoints, FlowTable, MaterialTable};
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
@@ -95,7 +97,7 @@ pub fn nearest_to(name: &str) -> Option<&'static str> {
         .map(|(near, _)| near.as_str())
 }
 
-/// A material of the library beside one of a case that has nearly its stiffness and density.
+/// A material of the library beside one of a case, by stiffness and density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LikeMaterial {
     /// Name in the library, without `lib:`.
@@ -107,42 +109,58 @@ pub struct LikeMaterial {
 }
 
 impl LikeMaterial {
-    /// Returns the material of the library that is nearest to one in Young's modulus and density, by their ratios; of several
-    /// that are equally near within a per cent, the weakest.
+    /// Returns the material of the library that is nearest to one in Young's modulus and density, by their ratios, and in Poisson's
+    /// ratio; of several that are equally near within a per cent, the weakest. One without a strength stands for its own kind
+    /// alone, such as glasses; any other solid is judged by the nearest that has one.
     pub fn of(material: &fem_material::Material) -> Option<Self> {
         const ALIKE: f64 = 0.05;
+        const OF_ONE_KIND: f64 = 0.25;
         const EQUALLY_NEAR: f64 = 0.01;
-        type Numbers = (&'static str, [f64; 2], Option<f64>);
+        type Numbers = (&'static str, [f64; 3], Option<f64>);
         static NUMBERS: LazyLock<Vec<Numbers>> = LazyLock::new(|| {
             let numbers = |(name, entry): (&'static String, &'static Material)| {
-                Some((name.as_str(), entry.stiffness_and_density()?, entry.yield_strength()))
+                Some((name.as_str(), entry.moduli_and_density()?, entry.yield_strength()))
             };
             materials().iter().filter_map(numbers).collect()
         });
-        let own = [material.instantaneous().youngs_modulus(), material.density()];
+        let own = numbers_of(material.instantaneous(), material.density());
         let known = |(name, numbers, yield_strength): &Numbers| {
-            let ratios = numbers.iter().zip(own).map(|(a, b)| (a / b).ln().abs());
-            let distance: f64 = ratios.sum();
+            let ratios = numbers[..2].iter().zip(own).map(|(a, b)| (a / b).ln().abs());
+            let distance = ratios.sum::<f64>() + (numbers[2] - own[2]).abs();
             let (name, yield_strength) = (*name, *yield_strength);
-            let like = Self { name, yield_strength, is_alike: distance < ALIKE };
-            ((distance / EQUALLY_NEAR).floor(), yield_strength.unwrap_or(f64::INFINITY), like)
+            (distance, Self { name, yield_strength, is_alike: distance < ALIKE })
         };
-        let nearest = NUMBERS.iter().map(known);
-        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        nearest.map(|(.., like)| like)
+        let near = |(distance, like): &(f64, Self)| {
+            ((distance / EQUALLY_NEAR).floor(), like.yield_strength.unwrap_or(f64::INFINITY))
+        };
+        let is_its_kind = |(distance, like): &(f64, Self)| {
+            like.yield_strength.is_some() || *distance < OF_ONE_KIND
+        };
+        let nearest = NUMBERS.iter().map(known).filter(is_its_kind);
+        let nearest = nearest.min_by(|a, b| {
+            let (a, b) = (near(a), near(b));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        nearest.map(|(_, like)| like)
     }
 }
 
+/// Returns Young's modulus, Pa, density, kg/m³, and Poisson's ratio.
+fn numbers_of(moduli: &ElasticModuli, density: f64) -> [f64; 3] {
+    [moduli.youngs_modulus(), density, moduli.poissons_ratio()]
+}
+
 impl Material {
-    /// Returns Young's modulus, Pa, and density, kg/m³.
-    fn stiffness_and_density(&self) -> Option<[f64; 2]> {
-        let MaterialTable { youngs_modulus, shear_modulus, poissons_ratio, .. } = &self.material;
-        let of_shear = || {
-            let shear = shear_modulus.as_ref()?.si().ok()?;
-            Some(2.0 * shear * (1.0 + poissons_ratio.as_ref()?.si().ok()?))
-        };
-        let modulus = youngs_modulus.as_ref().and_then(|it| it.si().ok()).or_else(of_shear)?;
-        Some([modulus, self.material.density.si().ok()?])
+    fn moduli_and_density(&self) -> Option<[f64; 3]> {
+        let table = &self.material;
+        let si = |modulus: Option<&Quantity<Stress>>| modulus?.si().ok();
+        let moduli = ElasticModuli::from_two(ModuliInput {
+            youngs_modulus: si(table.youngs_modulus.as_ref()),
+            shear_modulus: si(table.shear_modulus.as_ref()),
+            bulk_modulus: si(table.bulk_modulus.as_ref()),
+            poissons_ratio: table.poissons_ratio.as_ref().and_then(|ratio| ratio.si().ok()),
+        });
+        Some(numbers_of(&moduli.ok()?, table.density.si().ok()?))
     }
 
     /// Returns the yield strength, Pa: that beside the density, or that of the flow rule.

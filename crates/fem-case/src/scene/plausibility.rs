@@ -34,12 +34,12 @@ const MIN_SHARE: f64 = 0.05;
 
 /// Young's modulus (Pa) below which a solid is a polymer, whose own loss in an impact is not small beside that by plastic flow
 /// (Ashby 2011, chart of loss coefficient and modulus: above it the loss coefficient is mostly below 0.01).
-const MAX_MODULUS_OF_POLYMERS: f64 = 1e10;
+pub const MAX_MODULUS_OF_POLYMERS: f64 = 1e10;
 
 impl Scene {
     /// Returns the bodies whose own loss is not known: they deform, the case gives their material no relaxation, and does not
-    /// say that it is meant to be elastic. There are none for contact laws, whose loss the user gives. Where a body flows, the
-    /// loss of metals is small beside that.
+    /// say that it is meant to be elastic. There are none for contact laws, whose loss the user gives. Where a body loses
+    /// energy as it `flows`, the loss of metals is small beside that.
     pub fn bodies_of_unknown_loss(&self, flows: bool) -> impl Iterator<Item = &Body> {
         let is_law = matches!(self.model, ModelChoice::Law { .. });
         let deforms = self.bodies.iter().zip(self.compliance_shares());

@@ -170,25 +170,40 @@ fn an_unknown_loss_is_known() {
     assert!(unknown(BALL, &steel, true).is_empty());
 }
 
-/// What has the numbers of a material of the library is known as that, and of equally near ones the weakest.
+/// What has the numbers of a material of the library is known as that, and of equally near ones the weakest. What is like no
+/// material of the library is judged by one with a strength.
 #[test]
 fn the_nearest_material_is_found_by_its_numbers() {
-    let like = |modulus: f64, density: f64| {
+    let like = |modulus: f64, density: f64, ratio: f64| {
         let moduli = ModuliInput {
             youngs_modulus: Some(modulus),
-            poissons_ratio: Some(0.3),
+            poissons_ratio: Some(ratio),
             ..ModuliInput::default()
         };
         let material = Material::new(density, ElasticModuli::from_two(moduli).unwrap(), None);
         let found = LikeMaterial::of(&material.unwrap()).unwrap();
         (found.name, found.is_alike, found.yield_strength)
     };
-    assert_eq!(like(210e9, 7850.0), ("steel", true, Some(235e6)));
-    assert_eq!(like(210e9, 7900.0), ("steel", true, Some(235e6)));
-    assert_eq!(like(70e9, 2700.0), ("aluminium", true, Some(276e6)));
-    let (name, is_alike, strength) = like(72e9, 2500.0);
-    assert!(name.contains("glass") && is_alike && strength.is_none(), "{name}");
-    assert!(!like(150e9, 7000.0).1);
+    assert_eq!(like(210e9, 7850.0, 0.3), ("steel", true, Some(235e6)));
+    assert_eq!(like(210e9, 7900.0, 0.29), ("steel", true, Some(235e6)));
+    assert_eq!(like(70e9, 2700.0, 0.33), ("aluminium", true, Some(276e6)));
+    // Glass, and sand of quartz.
+    for density in [2500.0, 2650.0] {
+        let (name, _, strength) = like(72e9, density, 0.2);
+        assert!(name.contains("glass") && strength.is_none(), "{name}");
+    }
+    assert!(!like(150e9, 7000.0, 0.3).1);
+    // Lead, tungsten, magnesium, polyethylene, wood.
+    for (modulus, density, ratio) in [
+        (16e9, 11340.0, 0.44),
+        (400e9, 19300.0, 0.28),
+        (45e9, 1740.0, 0.29),
+        (1e9, 950.0, 0.42),
+        (10e9, 600.0, 0.3),
+    ] {
+        let (name, is_alike, strength) = like(modulus, density, ratio);
+        assert!(!is_alike && strength.is_some(), "{name}");
+    }
 }
 
 /// Within the measured speeds of a material its restitution is known.

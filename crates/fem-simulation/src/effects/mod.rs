@@ -171,14 +171,18 @@ pub fn decide(
 /// empty.
 pub fn bounds_of_closed_forms(scene: &Scene, speed: f64) -> Vec<String> {
     let Ok(estimate) = Estimate::at(scene, speed) else { return Vec::new() };
-    if matches!(scene.model(), ModelChoice::Law { .. }) {
+    let is_law = matches!(scene.model(), ModelChoice::Law { .. });
+    if is_law && !AdhesionEffect::is_lacking(scene, speed)
+        || AdhesionEffect::surely_sticks(scene, speed)
+    {
         return Vec::new();
     }
     let flows = PlasticFlow::is_on(scene, &estimate)
         && PlasticFlow::of_elements(scene, &estimate) != Support::Lacks;
     let is_missing = |effect: &&&dyn Effect| match effect.name() {
-        PlasticFlow::NAME => !flows,
+        PlasticFlow::NAME => !flows && !is_law,
         AdhesionEffect::NAME => AdhesionEffect::given(scene).is_none(),
+        _ if is_law => false,
         _ => effect.is_dissipative(),
     };
     let warning = |effect: &&dyn Effect| {

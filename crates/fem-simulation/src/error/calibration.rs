@@ -18,7 +18,7 @@ pub(crate) struct Calibration {
     pub safety_factor: [f64; 6],
     /// Constant c of the error c (h/a)ᵖ that the place of the contact's edge between two nodes causes.
     pub edge: [f64; 6],
-    /// What a modulus that is lost within one contact time adds to that constant.
+    /// Increase of c with the share of the modulus that is lost within one contact time.
     pub edge_of_relaxed: [f64; 6],
     /// Power p of the element size.
     pub edge_power: i32,

@@ -72,7 +72,7 @@ impl ErrorEstimator {
         let estimated = self.reference_error(simulation, collision, size, values, widest);
         let Some((errors, calibration)) = estimated else { return [None; 6] };
         let shares = Shares {
-            relaxed: simulation.setup().estimate.relaxed,
+            relaxed: simulation.estimate(collision).map_or(0.0, |estimate| estimate.relaxed),
             moved: moved_share(simulation, collision),
         };
         bar_parts(errors, calibration, [widest, at_pressure], shares)

@@ -4,7 +4,7 @@ use fem::effects::EffectDecision;
 use fem::results::Summary;
 use fem::{Account, BalanceSide, Ending, QuantityOfInterest};
 
-use crate::scene::{ELASTIC_GLASS, collision_of, simulation_of, summary_of};
+use crate::scene::{ELASTIC_GLASS, collision_of, summary_of};
 
 /// A ball of polystyrene on a wall, which sticks below 0.141 m/s (Thornton and Ning 1998) with a work of adhesion of
 /// 0.1 J/m².
@@ -138,9 +138,13 @@ fn a_typical_surface_energy_warns() {
         assert!(!fast.warnings.join("\n").contains("adhesion"), "{:?}", fast.warnings);
         assert!(model_bar(&fast, QuantityOfInterest::Restitution).is_some());
     }
-    // The parameters of a law are the user's.
-    let law = simulation_of(POLYSTYRENE, &["model.law.falcon.c=0"]);
-    assert!(law.setup().decisions.all.iter().all(|decision| decision.name != "adhesion"));
+    // The parameters of a law are the user's, but bodies like these would stick.
+    for (speed, is_told) in [("0.1", true), ("0.2", false)] {
+        let speed = format!("body.1.approach_speed={speed}");
+        let law = summary_of(POLYSTYRENE, &["model.law.falcon.c=0", &speed]);
+        assert_eq!(law.warnings.join("\n").contains("the bodies would stick"), is_told);
+        assert_eq!(model_bar(&law, QuantityOfInterest::Restitution).is_none(), is_told);
+    }
 }
 
 /// The pair's work of adhesion wins over the surface energies; 0 is the collision without adhesion, to the bit.

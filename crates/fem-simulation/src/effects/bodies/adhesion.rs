@@ -184,9 +184,12 @@ impl AdhesionEffect {
     }
 
     /// Returns whether a model lacks the effect. The loss of a contact law is the user's, unless the case gives a surface
-    /// energy.
-    pub(crate) fn is_lacking(scene: &Scene) -> bool {
-        !matches!(scene.model(), ModelChoice::Law { .. }) || Self::given(scene).is_some()
+    /// energy or bodies like these would stick.
+    pub(crate) fn is_lacking(scene: &Scene, speed: f64) -> bool {
+        let sticks = |it: Adhesion| speed < it.sticking_speed();
+        !matches!(scene.model(), ModelChoice::Law { .. })
+            || Self::given(scene).is_some()
+            || adhesion_of(scene).is_some_and(sticks)
     }
 }
 

@@ -9,6 +9,7 @@ use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::relevance::Relevance;
 use crate::effects::decision::{AdhesionEffect, Effect, MaterialLoss, PlasticFlow};
 use crate::estimate::Estimate;
+use crate::estimate::plastic_flow::{FlowingImpact, flowing_impact};
 use crate::quantity_errors::QuantityErrors;
 
 impl Effect for MaterialLoss {
@@ -59,10 +60,16 @@ impl Effect for MaterialLoss {
     }
 }
 
+/// Loss of restitution by flow above which that of the material is small beside it: metals lose about 1e-3 of the energy of a
+/// vibration (Ashby 2011, chart of loss coefficient and modulus).
+const LOSS_OF_FLOW: f64 = 0.02;
+
 impl MaterialLoss {
     /// Returns the bodies whose loss is not known, each material once.
     fn unknown<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<&'a Body> {
-        let flows = PlasticFlow::is_on(scene, estimate);
+        let loses = |flow: FlowingImpact| 1.0 - flow.quantities.restitution > LOSS_OF_FLOW;
+        let flows = PlasticFlow::is_on(scene, estimate)
+            && flowing_impact(scene, &estimate.hertz, None).is_some_and(loses);
         let mut bodies: Vec<&Body> = scene.bodies_of_unknown_loss(flows).collect();
         bodies.dedup_by_key(|body| body.material_key(""));
         bodies

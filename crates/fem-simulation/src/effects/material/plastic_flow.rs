@@ -7,7 +7,7 @@
 
 use fem_case::engineering::show;
 use fem_case::library::LikeMaterial;
-use fem_case::{Body, Scene, Switch};
+use fem_case::{Body, MAX_MODULUS_OF_POLYMERS, Scene, Switch};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::{FlowRule, Material};
 
@@ -100,8 +100,9 @@ impl<'a> Onset<'a> {
         if let Some(like) = self.like {
             let how = if like.is_alike { "as stiff and heavy as" } else { "most like" };
             let key = self.body.material_key("yield_strength");
+            let elastic = self.body.material_key("elastic");
             return format!(
-                "the strength of {name} is unknown, and it is {how} {0}, which yields from {speed} on: set {key}",
+                "the strength of {name} is unknown, and it is {how} {0}, which yields from {speed} on: set {key}, or {elastic} = true",
                 like.name
             );
         }
@@ -241,12 +242,12 @@ impl PlasticFlow {
     }
 }
 
-/// Returns whether a material without a strength is judged by its like: not one as soft as rubber or with a hyperelastic law,
-/// which tears, and not one that relaxes, whose strength is that of its rate.
+/// Returns whether a material without a strength is judged by its like: not one as soft as rubber, which tears, and not a polymer
+/// that relaxes or has a hyperelastic law, whose strength is that of its rate.
 fn may_yield(material: &Material) -> bool {
-    material.named_law().is_none()
-        && material.relaxation().is_none()
-        && material.instantaneous().youngs_modulus() >= MAX_MODULUS_OF_ELASTOMERS
+    let is_plain = material.named_law().is_none() && material.relaxation().is_none();
+    let softest = if is_plain { MAX_MODULUS_OF_ELASTOMERS } else { MAX_MODULUS_OF_POLYMERS };
+    material.instantaneous().youngs_modulus() >= softest
 }
 
 /// Returns the relevance for bodies whose strength is neither known nor that of a material of the library.

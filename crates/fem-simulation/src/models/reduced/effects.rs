@@ -35,7 +35,9 @@ pub(super) fn support(
         }
         SurfaceSlip::NAME if is_ting => Support::Computes { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
-        AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
+        AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene, scene.approach_speed()) => {
+            return None;
+        }
         PlasticFlow::NAME if dents => Support::Inherent { idle: "" },
         // The loss of a contact law is the user's.
         PlasticFlow::NAME if law.is_some() => return None,
