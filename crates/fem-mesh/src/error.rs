@@ -37,8 +37,8 @@ pub enum MeshError {
     },
     /// The far boundary of a half-space is too near.
     #[error(
-        "far radius {far_radius:?} m is too small for a refined radius of {refined_radius:?} m; at least \
-         twice that, {:?} m, is needed", 2.0 * refined_radius
+        "far radius {} is too small for a refined radius of {}; at least twice that, {}, is needed",
+        mm(*far_radius), mm(*refined_radius), mm(2.0 * refined_radius)
     )]
     FarRadius {
         /// Distance of the far boundary, m.
@@ -48,7 +48,7 @@ pub enum MeshError {
     },
     /// The uniformly fine block does not fit into the plate.
     #[error(
-        "a plate of thickness {thickness:?} m is too thin for its contact; at least {least:?} m is needed"
+        "a plate of thickness {} is too thin for its contact; at least {} is needed", mm(*thickness), mm(*least)
     )]
     ThinPlate {
         /// Thickness of the plate, m.
@@ -58,7 +58,7 @@ pub enum MeshError {
     },
     /// The rim of the plate is too near.
     #[error(
-        "a plate of radius {radius:?} m is too narrow for its thickness; at least {least:?} m is needed"
+        "a plate of radius {} is too narrow for its thickness; at least {} is needed", mm(*radius), mm(*least)
     )]
     NarrowPlate {
         /// Radius of the plate, m.
@@ -75,4 +75,11 @@ pub enum MeshError {
     /// An imported mesh is not a half disc at the required position.
     #[error("{0}")]
     Import(String),
+}
+
+/// Returns a length (m) in millimetres with four digits.
+fn mm(length: f64) -> String {
+    let length = 1e3 * length;
+    let digits = (3.0 - length.abs().log10().floor()).clamp(0.0, 12.0) as usize;
+    format!("{length:.digits$} mm")
 }

@@ -1,7 +1,7 @@
 //! The answer of a stored summary for a quantity, as text: the number with its error bar, or the bound with its sign.
 
 use fem::results::{Parts, Status};
-use fem_case::engineering::Unit;
+use fem_case::engineering::{Unit, number};
 use fem_collision::QuantityOfInterest;
 use serde_json::Value;
 
@@ -26,10 +26,28 @@ pub fn error_scale(value: f64, quantity: QuantityOfInterest) -> f64 {
     if quantity == QuantityOfInterest::Restitution { 1.0 } else { value.abs() }
 }
 
-/// Returns the answer of a summary in one cell ([`answer_text`]); `None` if there is none.
+/// Returns the answer of a summary in one cell ([`answer_text`]), a measured restitution before a bound; `None` if there is none.
 pub fn answer(summary: &Value, quantity: QuantityOfInterest) -> Option<String> {
     let value = summary[quantity.key()].as_f64()?;
-    Some(answer_text(value, &error_parts(summary, quantity), quantity))
+    let parts = error_parts(summary, quantity);
+    let text = answer_text(value, &parts, quantity);
+    let measured = summary["measured_restitution"].as_array().into_iter().flatten();
+    let measured = measured.filter_map(|it| it["restitution"].as_f64()).next();
+    Some(behind_measured(text, &parts, quantity, measured))
+}
+
+/// Returns the text of a bound of the restitution behind the measured value of the library, if there is one: `0.32 (≤ 1.0000)`.
+pub fn behind_measured(
+    text: String,
+    parts: &Parts,
+    quantity: QuantityOfInterest,
+    measured: Option<f64>,
+) -> String {
+    let is_bound = quantity == QuantityOfInterest::Restitution && parts.bound.is_some();
+    match measured.filter(|_| is_bound) {
+        Some(measured) => format!("{} ({text})", number(measured, 2)),
+        None => text,
+    }
 }
 
 /// Returns a number with its error bar, `62.46 ± 0.21 µs`, a bound with its sign, `≤ 0.9999`, or `0.993 ± ?` where an effect of
@@ -39,11 +57,11 @@ pub fn answer_text(value: f64, parts: &Parts, quantity: QuantityOfInterest) -> S
     let unit = (!symbol.is_empty()).then(|| Unit::fitting(value, symbol));
     let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
     let error = parts.sum().filter(|error| *error > VISIBLE * error_scale(value, quantity));
-    let number = with_error(scaled(value), error.map(scaled));
+    let shown = with_error(scaled(value), error.map(scaled));
     let text = match (parts.bound, parts.sum()) {
-        (Some(side), _) => format!("{} {number}", side.sign()),
-        (None, None) => format!("{number} ± ?"),
-        (None, Some(_)) => number,
+        (Some(side), _) => format!("{} {shown}", side.sign()),
+        (None, None) => format!("{shown} ± ?"),
+        (None, Some(_)) => shown,
     };
     unit.map_or(text.clone(), |unit| format!("{text} {}", unit.symbol()))
 }

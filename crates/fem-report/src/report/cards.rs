@@ -5,7 +5,7 @@ use fem_case::engineering::{Unit, show};
 use fem_collision::QuantityOfInterest;
 
 use super::stored_result::StoredResult;
-use crate::answer::{answer_text, error_scale};
+use crate::answer::{answer, error_scale};
 use crate::number_text::{power_of_ten, rounded};
 
 /// Relative errors below this are rounding.
@@ -40,10 +40,11 @@ fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
     if let Some(hertz) = hertz.filter(|_| quantity != QuantityOfInterest::Restitution) {
         notes.push(format!("Hertz {} (× {:.4})", show(hertz, quantity.unit()), value / hertz));
     }
-    if quantity == QuantityOfInterest::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
+    let is_loss = quantity == QuantityOfInterest::Restitution && parts.model.is_some();
+    if is_loss && (1.0 - value).abs() < 0.1 && value != 1.0 {
         notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
     }
-    let text = answer_text(value, &parts, quantity);
+    let text = answer(&result.summary, quantity)?;
     let symbol = unit.as_ref().map_or("", Unit::symbol);
     Some(Card {
         name: name(result, quantity),

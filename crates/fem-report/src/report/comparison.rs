@@ -13,7 +13,7 @@ use super::pressure_chart::pressure_chart;
 use super::shared_error::SharedErrors;
 use super::stored_result::{ReportError, StoredResult};
 use super::{FilmFrame, cards, citation, drawn, film};
-use crate::answer::{answer_text, error_scale};
+use crate::answer::{answer, error_scale};
 
 /// Tables of the case that describe the scene; all others say how it is computed and what is kept.
 const SCENE_TABLES: [&str; 6] = ["material", "body", "start", "model", "gravity", "stop"];
@@ -131,7 +131,7 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
             Some(own) => {
                 let from = first.filter(|_| k > 0);
                 (
-                    answer_text(own.0, &own.1, quantity),
+                    answer(&result.summary, quantity).unwrap_or_default(),
                     from.map_or(String::new(), |from| {
                         let shared = SharedErrors::of(result, &results[0]);
                         difference_text(own, from, quantity, shared)
@@ -153,7 +153,7 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
 
 /// Returns the difference from the first result, absolute for the restitution and relative for all others,
 /// and whether it is within the error bars, as far as the results do not share them. Bars above half of a value judge no
-/// difference.
+/// difference, and bounds have none unless the same effects are missing from both.
 fn difference_text(
     own: (f64, Parts),
     from: (f64, Parts),
@@ -163,6 +163,10 @@ fn difference_text(
     let difference = own.0 - from.0;
     if difference == 0.0 {
         return "the same".to_string();
+    }
+    let is_open = |of: &(f64, Parts)| of.1.model.is_none();
+    if !shared.model && (is_open(&own) || is_open(&from)) {
+        return "\u{2013}".to_string();
     }
     let size = match quantity {
         QuantityOfInterest::Restitution => format!("{difference:+.5}"),

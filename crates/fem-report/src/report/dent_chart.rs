@@ -1,6 +1,6 @@
 //! The dents of bodies that flowed: the displacement of the surface, the sizes, and the energy that they took.
 
-use fem::results::DENT_FILE;
+use fem::results::{DENT_FILE, energy_of_impact};
 use fem_case::engineering::{number, show};
 use fem_figure::{Chart, Curve};
 use serde_json::Value;
@@ -42,15 +42,20 @@ fn chart(dent: &Value, profiles: &Columns) -> Option<Chart> {
     Some(chart_axes(&x, &y).with(curve.like_curve(0)))
 }
 
-/// "Of the initial energy, 44 % …": where the energy went that the dents took.
+/// "Of the energy of the impact, 44 % …": where the energy went that the dents took.
 pub fn energy_of_dents(result: &StoredResult) -> Option<String> {
+    let number_of = |body: &Value, key: &str| body.get(key).and_then(Value::as_f64);
+    let bodies = result.list("bodies").iter();
+    let bodies: Vec<_> = bodies
+        .map(|body| (number_of(body, "mass_kg"), number_of(body, "velocity_before_m_s")))
+        .collect();
     let share = |key: &str| {
         let part = result.number(&["energy", key])?;
-        Some(number(100.0 * part / result.number(&["energy", "initial_j"])?, 2))
+        Some(number(100.0 * part / energy_of_impact(&bodies)?, 2))
     };
     let (plastic, locked_in) = (share("plastic_work_j")?, share("locked_in_j")?);
     Some(format!(
-        "Of the initial energy, {plastic} % became plastic work, and {locked_in} % is locked in by residual stress."
+        "Of the energy of the impact, {plastic} % became plastic work, and {locked_in} % is locked in by residual stress."
     ))
 }
 

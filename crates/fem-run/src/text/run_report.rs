@@ -5,13 +5,15 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::{EffectDecision, NeglectError};
-use fem::results::{BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary};
+use fem::results::{
+    BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary, energy_of_impact,
+};
 use fem::{ExpectedError, ModelCandidate};
 use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::ToleranceValue;
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
-use fem_report::answer::answer_text;
+use fem_report::answer::{answer_text, behind_measured};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -132,8 +134,10 @@ fn flow<'a>(
     };
     let mut rows: Vec<_> = dents.map(dent).collect();
     let energy = &summary.energy;
+    let motions = summary.bodies.iter().map(|body| (body.mass_kg, body.velocity_before_m_s));
+    let of_impact = energy_of_impact(&motions.collect::<Vec<_>>());
     let shares = [energy.get(Account::PlasticWork), energy.locked_in_j].map(|part| {
-        let share = part.zip(energy.initial_j).map(|(part, initial)| 100.0 * part / initial);
+        let share = part.zip(of_impact).map(|(part, whole)| 100.0 * part / whole);
         share.map_or_else(unknown, |share| number(share, 2))
     });
     // Dents beside each other hold more residual stress than that of the first one.
@@ -220,10 +224,7 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
             Some(side) => format!("{} {}", side.sign(), shown(value)),
             None => shown(value),
         };
-        let own = match measured.filter(|_| !has_unit && has_measured) {
-            Some((_, measured)) => format!("{} ({own})", number(measured, 2)),
-            None => own,
-        };
+        let own = behind_measured(own, &parts, quantity, measured.map(|(_, value)| value));
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         let name = quantity.name().to_string();
         let mut cells = vec![name, own, mesh, neglected];
@@ -280,11 +281,7 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
         Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
         None => number(size, 2),
     };
-    let neglected = match (parts.model, parts.bound) {
-        (Some(size), _) => sized(size),
-        (None, Some(_)) => NONE.to_string(),
-        (None, None) => UNKNOWN.to_string(),
-    };
+    let neglected = parts.model.map_or(UNKNOWN.to_string(), sized);
     let input = parts.input.map_or("0".to_string(), sized);
     [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected, input]
 }

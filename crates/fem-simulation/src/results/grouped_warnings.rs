@@ -104,19 +104,19 @@ struct Piece {
 
 /// Splits a text at its blanks, but not between a number and its unit.
 fn pieces(text: &str) -> Vec<Piece> {
-    const LONGEST_UNIT: usize = 4;
-    const SHORT_WORDS: [&str; 9] = ["to", "on", "of", "in", "and", "the", "is", "at", "by"];
-    let may_be_unit =
-        |word: &str| word.chars().count() <= LONGEST_UNIT && !SHORT_WORDS.contains(&word);
+    let is_unit = |word: &str| parse_quantity(&format!("1 {word}")).is_ok();
+    let is_number = |word: &str| {
+        let digits = word.trim_start_matches(['(', '+', '-', '\u{2212}', '±', '≤', '≥']);
+        digits.starts_with(|c: char| c.is_ascii_digit())
+    };
     let mut pieces: Vec<Piece> = Vec::new();
     let mut is_behind_number = false;
     for word in text.split_whitespace() {
-        let is_unit = is_behind_number && may_be_unit(bare(word));
-        is_behind_number = word.contains(|c: char| c.is_ascii_digit());
-        match pieces.last_mut().filter(|_| is_unit) {
+        match pieces.last_mut().filter(|_| is_behind_number && is_unit(bare(word))) {
             Some(number) => number.text += &format!(" {word}"),
-            None => pieces.push(Piece { text: word.to_string(), is_number: is_behind_number }),
+            None => pieces.push(Piece { text: word.to_string(), is_number: is_number(word) }),
         }
+        is_behind_number = is_number(word) && bare(word) == word;
     }
     pieces
 }
@@ -149,6 +149,14 @@ mod tests {
         let kind = &kinds.all()[0];
         assert_eq!((kind.count, kind.run, kind.last_run), (3, 2, 7));
         assert_eq!(kind.merged(), "a step of 12.3 µm … 2 m is 4 % … 12 % too long");
+        let mut rates = WarningKinds::default();
+        for (rate, change) in [("2000", "+0.01"), ("3000", "+0.02")] {
+            rates.add(0, &format!("a steel is 10 % stronger at {rate} 1/s (e {change}): set material.\"lib:a2\".flow"));
+        }
+        assert_eq!(
+            rates.all()[0].merged(),
+            "a steel is 10 % stronger at 2000 1/s … 3000 1/s (e +0.01 … +0.02): set material.\"lib:a2\".flow"
+        );
         let mut yields = WarningKinds::default();
         yields.add(0, "at 924.9 µm/s: e from 0.84 to 1.00");
         yields.add(1, "at 5.000 m/s: e from 0.14 to 0.26");

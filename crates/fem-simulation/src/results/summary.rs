@@ -355,6 +355,14 @@ pub struct BodySummary {
     pub vibration_energy_j: Option<f64>,
 }
 
+/// Returns the energy of relative motion ½ m* v² of two bodies, J, from mass (kg; `None` for a body that does not move) and velocity
+/// (m/s) of each.
+pub fn energy_of_impact(bodies: &[(Option<f64>, Option<f64>)]) -> Option<f64> {
+    let &[(first, own), (second, other)] = bodies else { return None };
+    let inverse: f64 = [first, second].into_iter().flatten().map(f64::recip).sum();
+    Some(0.5 * (own? - other?).powi(2) / inverse).filter(|energy| energy.is_finite())
+}
+
 /// Cost of the run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostSummary {

@@ -9,6 +9,7 @@ use super::table::Table;
 use crate::fit::Point;
 use crate::sweep::COLUMNS;
 use fem_case::Scene;
+use fem_case::engineering::number;
 use fem_simulation::results::Status;
 
 /// Optional columns; a name that nearly equals one of them is an error.
@@ -239,8 +240,10 @@ impl Columns {
                 ));
         }
         if self.status.is_some_and(|status| table.text(row, status) == Status::Bound.word()) {
-            let message =
-                format!("the restitution {restitution} is an upper bound, and no number for a law");
+            let message = format!(
+                "the restitution {} is an upper bound, and no number for a law",
+                number(restitution, 4)
+            );
             return Err(table.fault(row, message).in_column(STATUS).with_help(
                 "give the materials a relaxation or a strength and run the sweep again, name a measured value, or write \
                  --as-elastic",
