@@ -1,7 +1,7 @@
 //! One number, one status and one error bar wherever a result goes: terminal, summary, sweep, report, fit and export. A restitution
 //! that is a bound reaches no contact law unless it is asked for.
 
-use fem_case::library::materials;
+use fem_case::library::{Material, materials};
 use serde_json::Value;
 
 use crate::common::Place;
@@ -91,6 +91,10 @@ fn compare(of: &str, text: &str) -> Value {
     let refused = place.run(fit);
     assert_eq!(refused.stderr.contains("upper bound"), is_bound, "{of}: {}", refused.stderr);
     summary
+}
+
+fn has_strength(entry: &Material) -> bool {
+    entry.material.yield_strength.is_some() || entry.material.flow.is_some()
 }
 
 /// Every material of the library, and its numbers typed by hand without a name, struck on a rigid floor.
@@ -225,4 +229,25 @@ fn scenes_say_the_same_everywhere() {
             assert!(!place.path("export").exists(), "{name}");
         }
     }
+}
+
+/// The law that follows elements is the first of an inversion for bodies that yield, and only what changes a parameter is an
+/// uncertain input of it.
+#[test]
+fn an_inversion_of_metals_begins_with_their_law() {
+    for (name, entry) in materials() {
+        let text = floor("wall = {}") + &ball("10 mm", "1 m/s", &format!("lib:{name}"));
+        let place = Place::with(&text);
+        let ran = place.succeed("invert case.toml --restitution 0.5");
+        let first = ran.stdout.lines().nth(3).unwrap();
+        assert_eq!(first.starts_with("mean_pressure"), has_strength(entry), "{name}: {first}");
+        for wrong in ["± 0 ", "0.000000", "0.000 "] {
+            assert!(!ran.stdout.contains(wrong), "{name}: {}", ran.stdout);
+        }
+    }
+    let text = floor("wall = {}") + &ball("10 mm", "0.4 m/s", "lib:bearing-steel");
+    let place = Place::with(&text);
+    place.write("e.csv", "speed_m_s,restitution\n0.4,0.95\n0.6,0.9\n1,0.85\n");
+    let ran = place.succeed("fit case.toml --data e.csv --law mean_pressure");
+    assert!(!ran.stdout.contains(" by material"), "{}", ran.stdout);
 }
