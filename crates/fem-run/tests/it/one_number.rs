@@ -419,37 +419,25 @@ fn speeds_that_are_left_out_are_named() {
         .succeed("export case.toml --data e.csv --out data")
         .tells("up to 200.0 mm/s the bodies stay");
 
-    let steel = floor("wall = {}") + &ball("10 mm", "0.4 m/s", "lib:bearing-steel");
+    // Damping is unknown below first yield, at about 280 mm/s.
+    let steel = floor("wall = {}") + &ball("10 mm", "0.8 m/s", "lib:bearing-steel");
     let yields = Place::with(&steel);
-    let ran = yields.succeed("export case.toml --out above");
-    ran.tells(
-        "from 126.5 mm/s to 272.5 mm/s the restitution is a bound and is left out: the damping",
-    );
+    let export = "export case.toml --speeds 0.1..2";
+    let ran = yields.succeed(format!("{export} --out above").as_str());
+    ran.tells("from 100.0 mm/s to |the restitution is a bound and is left out: the damping");
     assert!(!ran.stderr.contains("the speed of the case"), "{}", ran.stderr);
+    let own = "--set body.1.approach_speed=0.15 --out own";
     yields
-        .succeed("export case.toml --as-elastic --out all")
-        .tells("from 126.5 mm/s to 272.5 mm/s e is");
+        .succeed(format!("{export} {own}").as_str())
+        .tells("the speed of the case, 150.0 mm/s, is outside");
     yields
-        .succeed([
-            "export",
-            "case.toml",
-            "--speeds",
-            "0.2..2",
-            "--set",
-            "body.1.approach_speed=0.21",
-            "--out",
-            "own",
-        ])
-        .tells("the speed of the case, 210.0 mm/s, is outside");
+        .succeed(format!("{export} --as-elastic --out all").as_str())
+        .tells("from 100.0 mm/s to |e is an upper bound, taken as it is");
     for (place, file, begin) in [
-        (&place, "sticky", "from 100.0 mm/s to 342.0 mm/s the bodies stick"),
-        (&place, "data", "up to 200.0 mm/s the bodies stay together"),
-        (
-            &yields,
-            "above",
-            "from 126.5 mm/s to 272.5 mm/s the restitution is a bound and is left out",
-        ),
-        (&yields, "all", "WARNING: from 126.5 mm/s to 272.5 mm/s e is an upper bound"),
+        (&place, "sticky", "# from 100.0 mm/s to 342.0 mm/s the bodies stick"),
+        (&place, "data", "# speeds are left out: up to 200.0 mm/s the bodies stay together"),
+        (&yields, "above", "# from 100.0 mm/s to "),
+        (&yields, "all", "# WARNING: from 100.0 mm/s to "),
     ] {
         let text = place.text(format!("{file}/{LAMMPS}"));
         assert!(text.contains(begin), "{text}");
