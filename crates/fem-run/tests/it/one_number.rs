@@ -1,7 +1,7 @@
 //! One number, one status and one error bar wherever a result goes: terminal, summary, sweep, report, fit and export. A restitution
 //! that is a bound reaches no contact law unless it is asked for.
 
-use fem_case::library::materials;
+use fem_case::library::{Material, materials};
 use serde_json::Value;
 
 use crate::common::Place;
@@ -93,6 +93,96 @@ fn compare(of: &str, text: &str) -> Value {
     summary
 }
 
+/// The input of LAMMPS, whose restitution is one of a few numbers after the modulus.
+const LAMMPS: &str = "lammps_coeff_restitution.in";
+
+fn has_strength(entry: &Material) -> bool {
+    entry.material.yield_strength.is_some() || entry.material.flow.is_some()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Compares the law that falls with speed with a run on a half-space, since the codes have no plate.
+fn compare_on_a_block(of: &str, place: &Place, export: &Value) {
+    let a = number(&export["dissipation_time_s"]);
+    let law = format!("model={{ law = {{ kuwabara_kono = {{ a = {a} }} }} }}");
+    let text = place.text("case.toml");
+    if !text.contains("plate.thickness") {
+        return;
+    }
+    let plate = text.lines().find(|line| line.starts_with("plate.")).unwrap();
+    place.write("block.toml", &text.replace(plate, "half_space = {}"));
+    place.succeed(["block.toml", "--set", &law, "--out", "block", "--force"]);
+    let ran = number(&place.json("block/summary.json")["restitution"]);
+    let made = number(&export["snippets"][1]["restitutions_at_data"][6]);
+    assert!((made - ran).abs() < 1e-6, "{of}: {made} {ran}");
+}
+
+/// Compares what `export` writes with the run of the same case, without and with `--as-elastic`.
+fn compare_export(of: &str, text: &str, summary: &Value, is_exported: bool) {
+    let place = Place::with(text);
+    let plain = place.run("export case.toml --out plain");
+    assert_eq!(plain.code == Some(0), is_exported, "{of}: {}", plain.stderr);
+    assert_eq!(place.path("plain").exists(), is_exported, "{of}");
+    let accepted = place.run("export case.toml --as-elastic --out accepted");
+    if summary["adhesion"]["sticks"] == true && summary["status"]["restitution"] == "computed" {
+        for refused in [plain, accepted] {
+            refused.tells("the bodies stick below |no dashpot states that");
+        }
+        // The way out that the help names.
+        let parting = "contact.work_of_adhesion=0 --as-elastic --out parting";
+        place.succeed(format!("export case.toml --set {parting}").as_str());
+        return;
+    }
+    assert_eq!(accepted.code, Some(0), "{of}: {}", accepted.stderr);
+    let folders: &[&str] = if is_exported { &["plain", "accepted"] } else { &["accepted"] };
+    let exports = folders.iter().map(|folder| place.json(&format!("{folder}/export.json")));
+    let exports: Vec<Value> = exports.collect();
+    for (folder, export) in folders.iter().zip(&exports) {
+        let bounds = export["bounds"].as_array().unwrap();
+        assert!(*folder == "accepted" || bounds.is_empty(), "{of}: {bounds:?}");
+        let written = &export["snippets"][0];
+        let (e, worst) = (number(&written["restitution"]), number(&written["worst_error"]));
+        for snippet in export["snippets"].as_array().unwrap() {
+            let file = place.text(format!("{folder}/{}", snippet["file"].as_str().unwrap()));
+            assert_eq!(file.contains("WARNING: "), !bounds.is_empty(), "{of}: {file}");
+            let is_meant = file.contains("(elastic = true)");
+            assert!(e < 0.999 || is_meant || !bounds.is_empty(), "{of}: {file}");
+        }
+        let file = place.text(format!("{folder}/{LAMMPS}"));
+        let numbers = file.lines().filter(|line| line.contains(" hertz/material "));
+        for line in numbers {
+            let entry = line.split(" hertz/material ").nth(1).unwrap().split(' ').nth(1).unwrap();
+            assert!((entry.parse::<f64>().unwrap() - e).abs() < 1e-8, "{of}: {line}");
+        }
+        compare_on_a_block(of, &place, export);
+        // The file's e is that of the run within the errors that both state.
+        let ran = number(&summary["restitution"]);
+        let stated = &summary["uncertainty"]["restitution"];
+        let own = ["discretisation", "model"].map(|part| stated[part].as_f64().unwrap_or(0.0));
+        let error = own[0] + own[1] + number(&export["tolerance"]);
+        let at_own = export["data"].as_array().unwrap().iter().find(|point| {
+            let speed = number(&summary["bodies"][1]["velocity_before_m_s"]).abs();
+            (number(&point["speed_m_s"]) / speed - 1.0).abs() < 1e-9
+        });
+        let computed = number(&at_own.unwrap_or_else(|| panic!("{of}: no point"))["restitution"]);
+        assert!((computed - e).abs() <= worst * (1.0 + 1e-9), "{of}: {computed} {e} {worst}");
+        let is_bound = summary["status"]["restitution"] == "bound";
+        match is_bound && bounds.is_empty() {
+            true => assert!(computed < ran, "{of}: {computed} {ran}"),
+            false => assert!((computed - ran).abs() < error, "{of}: {computed} {ran} ± {error}"),
+        }
+    }
+    // What is computed stays as it is if bounds are accepted.
+    if let [plain, accepted] = &exports[..] {
+        for point in plain["data"].as_array().unwrap() {
+            assert!(accepted["data"].as_array().unwrap().contains(point), "{of}: {point}");
+        }
+    }
+}
+
 /// Every material of the library, and its numbers typed by hand without a name, struck on a rigid floor.
 #[test]
 fn every_material_says_the_same_everywhere() {
@@ -126,13 +216,19 @@ fn every_material_says_the_same_everywhere() {
 /// Scenes with the statuses of restitution and peak force, and whether a DEM file is written.
 #[test]
 fn scenes_say_the_same_everywhere() {
-    let block = |material: &str| floor(&format!("half_space = {{}}\nmaterial = 'lib:{material}'"));
-    let plate = |thickness: &str| {
-        floor(&format!("plate.thickness = '{thickness}'\nmaterial = 'lib:steel'"))
+    let named = |material: &str| match material {
+        "mine" => material.to_string(),
+        _ => format!("lib:{material}"),
+    };
+    let block =
+        |material: &str| floor(&format!("half_space = {{}}\nmaterial = '{}'", named(material)));
+    let plate = |thickness: &str, material: &str| {
+        floor(&format!("plate.thickness = '{thickness}'\nmaterial = '{}'", named(material)))
     };
     let coarse = "[accuracy]\ntolerance = '5 %'\n[output]\nsnapshots = []\n";
     let typed =
         "[material.mine]\ndensity = 7850\nyoungs_modulus = '210 GPa'\npoissons_ratio = 0.3\n";
+    let meant = typed.to_string() + "elastic = true\n";
     let sticky = "[contact]\nwork_of_adhesion = '0.1 J/m^2'\n";
     let scenes = [
         (
@@ -199,6 +295,34 @@ fn scenes_say_the_same_everywhere() {
             false,
         ),
         (
+            "steel of Hertz",
+            floor("wall = {}") + &ball("10 mm", "1 m/s", "lib:steel") + coarse + "[model.hertz]\n",
+            ["bound"; 2],
+            true,
+        ),
+        (
+            "elastic by wish",
+            meant.clone() + &block("mine") + &ball("10 mm", "1 m/s", "mine") + coarse,
+            ["computed"; 2],
+            true,
+        ),
+        (
+            "elastic by wish, any model",
+            meant.clone()
+                + &block("mine")
+                + &ball("10 mm", "1 m/s", "mine")
+                + coarse
+                + "[model.auto]\n",
+            ["computed"; 2],
+            true,
+        ),
+        (
+            "elastic by wish, on a plate",
+            meant.clone() + &plate("5 mm", "mine") + &ball("10 mm", "1 m/s", "mine") + coarse,
+            ["computed"; 2],
+            true,
+        ),
+        (
             "polymer",
             block("steel") + &ball("10 mm", "0.1 m/s", "lib:pvb") + coarse,
             ["computed"; 2],
@@ -206,7 +330,7 @@ fn scenes_say_the_same_everywhere() {
         ),
         (
             "plate",
-            plate("5 mm") + &ball("10 mm", "0.5 m/s", "lib:steel") + coarse,
+            plate("5 mm", "steel") + &ball("10 mm", "0.5 m/s", "lib:steel") + coarse,
             ["computed"; 2],
             true,
         ),
@@ -215,14 +339,150 @@ fn scenes_say_the_same_everywhere() {
         let summary = compare(name, &text);
         let found = ["restitution", "peak_force_n"].map(|key| summary["status"][key].clone());
         assert_eq!(found, statuses, "{name}");
+        compare_export(name, &text, &summary, is_exported);
+    }
+}
+
+/// A table has the restitution of each pair of equal metals as their run by the law that follows elements has it, whether or not
+/// bounds of other pairs are accepted, and each bound has its comment.
+#[test]
+fn a_table_has_the_restitutions_of_its_metals() {
+    // Polymers with a strength have no known damping.
+    let is_stiff = |entry: &Material| {
+        entry.material.youngs_modulus.as_ref().is_some_and(|modulus| modulus.si().unwrap() > 1e10)
+    };
+    let is_metal = |entry: &Material| has_strength(entry) && is_stiff(entry);
+    let all = materials().iter().filter(|(_, entry)| is_metal(entry));
+    let metals: Vec<&str> = all.map(|(name, _)| &**name).collect();
+    assert!(metals.len() > 6, "{metals:?}");
+    let case = |name: &str, speed: &str| {
+        let other = ball("10 mm", "0 m/s", &format!("lib:{name}")).replace("'ball'", "'other'");
+        other + &ball("10 mm", speed, &format!("lib:{name}"))
+    };
+    let table = |others: &[&str], option: &str, name: &str| {
+        let place = Place::with(&case("steel", "3 m/s"));
+        let all = metals.iter().chain(others).map(|name| format!("lib:{name}"));
+        let all = all.collect::<Vec<_>>().join(",");
+        let speeds = "--speeds 2.9..3.1 --diameters 1cm";
+        place.succeed(
+            format!("export case.toml --materials {all} {speeds} {option} --out {name}").as_str(),
+        );
+        (place.json(&format!("{name}/export.json")), place.text(format!("{name}/lammps_pairs.in")))
+    };
+    let (plain, _) = table(&[], "", "plain");
+    let (accepted, file) = table(&["pmma", "soda-lime-glass"], "--as-elastic", "accepted");
+    let rows = accepted["pairs"].as_array().unwrap();
+    for row in plain["pairs"].as_array().unwrap() {
+        assert!(rows.contains(row), "{row}");
+    }
+    for (k, row) in rows.iter().enumerate() {
+        let is_bound = !row["bounds"].as_array().unwrap().is_empty();
+        let e = number(&row["restitution"]);
+        assert!(e < 0.999 || is_bound, "{row}");
+        let line = file.lines().filter(|line| line.starts_with("pair_coeff")).nth(k).unwrap();
+        let types: Vec<&str> = line.split(' ').skip(1).take(2).collect();
+        let warned = file.lines().filter(|line| line.starts_with("# WARNING: e of "));
+        let pairs = warned.filter_map(|line| line[16..].split(':').next());
+        let mut pairs = pairs.flat_map(|list| list.split(", "));
+        assert_eq!(pairs.any(|pair| pair == types.join(" ")), is_bound, "{row} {file}");
+        if row["first_material"] != row["second_material"] || is_bound {
+            continue;
+        }
+        let name = row["first_material"].as_str().unwrap().trim_start_matches("lib:");
+        let law = "[model]\nlaw = { mean_pressure = {} }\n";
+        let place = Place::with(&(case(name, "3 m/s") + law));
+        place.succeed("case.toml --out run");
+        let ran = number(&place.json("run/summary.json")["restitution"]);
+        let error = number(&row["worst_error"]) + 1e-6;
+        assert!((e - ran).abs() <= error, "{name}: {e} {ran} {error}");
+    }
+}
+
+/// An export says from which speed on it holds, and why: of bodies that stick, and of bodies whose loss is known from first yield on.
+#[test]
+fn speeds_that_are_left_out_are_named() {
+    let grains = "[material.q]\ndensity = 2200\nyoungs_modulus = '72 GPa'\npoissons_ratio = 0.17\nelastic = true\n\
+                  surface_energy = '25 mJ/m^2'\n";
+    let first = ball("1 um", "0 m/s", "q").replace("'ball'", "'other'");
+    let place = Place::with(&(grains.to_string() + &first + &ball("1 um", "1 cm/s", "q")));
+    place.fails(2, "export case.toml").tells("stick below 396.3 mm/s|--speeds LOW..HIGH");
+    let ran = place.succeed("export case.toml --speeds 0.1..4 --out sticky");
+    ran.tells("from 100.0 mm/s to 342.0 mm/s the bodies stick below 396.3 mm/s");
+    ran.tells("the speed of the case, 10.00 mm/s, is outside of the speeds of this export");
+    // Data of bodies that stay together are no lossless ones.
+    place.write("e.csv", "speed_m_s,restitution\n0.1,0\n0.2,0\n0.5,0.6\n1,0.9\n");
+    place.write("zero.csv", "speed_m_s,restitution\n0.1,0\n0.2,0\n");
+    place
+        .fails(2, "export case.toml --data zero.csv")
+        .tells("up to 200.0 mm/s the bodies stay together");
+    place
+        .succeed("export case.toml --data e.csv --out data")
+        .tells("up to 200.0 mm/s the bodies stay");
+
+    // Damping is unknown below first yield, at about 280 mm/s.
+    let steel = floor("wall = {}") + &ball("10 mm", "0.8 m/s", "lib:bearing-steel");
+    let yields = Place::with(&steel);
+    let export = "export case.toml --speeds 0.1..2";
+    let ran = yields.succeed(format!("{export} --out above").as_str());
+    ran.tells("from 100.0 mm/s to |the restitution is a bound and is left out: the damping");
+    assert!(!ran.stderr.contains("the speed of the case"), "{}", ran.stderr);
+    let own = "--set body.1.approach_speed=0.15 --out own";
+    yields
+        .succeed(format!("{export} {own}").as_str())
+        .tells("the speed of the case, 150.0 mm/s, is outside");
+    yields
+        .succeed(format!("{export} --as-elastic --out all").as_str())
+        .tells("from 100.0 mm/s to |e is an upper bound, taken as it is");
+    for (place, file, begin) in [
+        (&place, "sticky", "# from 100.0 mm/s to 342.0 mm/s the bodies stick"),
+        (&place, "data", "# speeds are left out: up to 200.0 mm/s the bodies stay together"),
+        (&yields, "above", "# from 100.0 mm/s to "),
+        (&yields, "all", "# WARNING: from 100.0 mm/s to "),
+    ] {
+        let text = place.text(format!("{file}/{LAMMPS}"));
+        assert!(text.contains(begin), "{text}");
+    }
+}
+
+/// Bounds of a sweep that are accepted have a comment in each file, of a fit to them too.
+#[test]
+fn accepted_bounds_of_data_have_a_comment() {
+    let typed = "[material.m]\ndensity = 7850\nyoungs_modulus = '210 GPa'\npoissons_ratio = 0.3\n";
+    let place =
+        Place::with(&(typed.to_string() + &floor("wall = {}") + &ball("1 cm", "1 m/s", "m")));
+    place.write(
+        "e.csv",
+        "speed_m_s,restitution,restitution_status\n1,0.97,bound\n2,0.96,bound\n4,0.95,computed\n",
+    );
+    place.fails(2, "export case.toml --data e.csv").tells("upper bound");
+    place
+        .succeed("export case.toml --data e.csv --as-elastic --out data")
+        .tells("2 of 3 restitutions are upper");
+    place.succeed("fit case.toml --data e.csv --as-elastic --law kuwabara_kono --out fit");
+    place.succeed("export case.toml --fit fit --out fitted").tells("2 of 3 restitutions are upper");
+    for folder in ["data", "fitted"] {
+        let text = place.text(format!("{folder}/{LAMMPS}"));
+        assert!(text.contains("WARNING: ") && text.contains("2 of 3 restitutions"), "{text}");
+    }
+}
+
+/// The law that follows elements is the first of an inversion for bodies that yield, and only what changes a parameter is an
+/// uncertain input of it.
+#[test]
+fn an_inversion_of_metals_begins_with_their_law() {
+    for (name, entry) in materials() {
+        let text = floor("wall = {}") + &ball("10 mm", "1 m/s", &format!("lib:{name}"));
         let place = Place::with(&text);
-        let ran = place.run("export case.toml --out export");
-        assert_eq!(ran.code == Some(0), is_exported, "{name}: {}", ran.stderr);
-        if is_exported {
-            let text = place.text("export/lammps_coeff_restitution.in");
-            assert!(!text.contains("no loss of"), "{name}: {text}");
-        } else {
-            assert!(!place.path("export").exists(), "{name}");
+        let ran = place.succeed("invert case.toml --restitution 0.5");
+        let first = ran.stdout.lines().nth(3).unwrap();
+        assert_eq!(first.starts_with("mean_pressure"), has_strength(entry), "{name}: {first}");
+        for wrong in ["± 0 ", "0.000000", "0.000 "] {
+            assert!(!ran.stdout.contains(wrong), "{name}: {}", ran.stdout);
         }
     }
+    let text = floor("wall = {}") + &ball("10 mm", "0.4 m/s", "lib:bearing-steel");
+    let place = Place::with(&text);
+    place.write("e.csv", "speed_m_s,restitution\n0.4,0.95\n0.6,0.9\n1,0.85\n");
+    let ran = place.succeed("fit case.toml --data e.csv --law mean_pressure");
+    assert!(!ran.stdout.contains(" by material"), "{}", ran.stdout);
 }

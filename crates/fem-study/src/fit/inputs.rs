@@ -22,8 +22,9 @@ pub struct InputPart {
 }
 
 impl InputPart {
-    /// Returns the parts of all uncertain inputs of a case. `refit` returns the changes of n results from those of
-    /// the case to those of another one. Inputs whose keys contain one of `replaced` have no part.
+    /// Returns the parts of the uncertain inputs of a case that change a result. `refit` returns the changes of n results from those
+    /// of the case to those of another one. Inputs whose keys contain one of `replaced` have no part, nor has an input that is found
+    /// itself, since its value in the case changes nothing.
     pub(crate) fn of(
         case: &Case,
         n: usize,
@@ -36,7 +37,8 @@ impl InputPart {
             let changes = case.change_by(input, &refit).unwrap_or_else(|| vec![f64::NAN; n]);
             Self { input: input.clone(), changes }
         };
-        inputs.filter(|input| !is_replaced(&input.key)).map(part).collect()
+        let parts = inputs.filter(|input| !is_replaced(&input.key)).map(part);
+        parts.filter(|part: &Self| part.changes.iter().any(|change| *change != 0.0)).collect()
     }
 
     /// Returns the standard error of a result by all inputs.

@@ -1,9 +1,10 @@
 //! The laws of DEM codes that fit e(v) and T(v), and their ranges of validity.
 
 use crate::fit::dem::{
-    DentingSprings, Export, Sphere, fit_dissipation, fit_springs, restitution_of,
+    DentingSprings, Export, HuntCrossley, Sphere, fit_dissipation, fit_springs, restitution_of,
 };
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
+use fem_case::schema::EmptyTable;
 use fem_case::{Body, Case, Scene};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily};
@@ -50,18 +51,23 @@ impl FittedLaw {
 }
 
 impl DemExport {
-    /// Fits all laws to a curve; `tolerance` is the largest error of e within a range of validity.
+    /// Fits all laws to a curve; `tolerance` is the largest error of e within a range of validity. The codes have no plate: its loss is
+    /// one of the laws. Without any loss all dashpots are 0.
     ///
     /// # Errors
     /// The data do not determine a law.
     pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
-        let scene = case.scene();
+        let plate = case.scene().bodies().iter().position(|body| body.plate().is_some());
+        let on_block = plate.map(|side| case.scene().with_half_space(side));
+        let scene = on_block.as_ref().unwrap_or(case.scene());
         let n = curve.points.len() as f64;
         // The mean is the best constant e.
         let e = curve.points.iter().map(|point| point.restitution).sum::<f64>() / n;
-        if !(LOSSLESS..1.0 - LOSSLESS).contains(&e) {
+        if e < LOSSLESS {
             return Err(FitError::Insensitive { key: "alpha" });
         }
+        let is_lossless = e > 1.0 - LOSSLESS;
+        let e = if is_lossless { 1.0 } else { e };
         let constant_validity = curve.validity(tolerance, |_| Ok(e))?;
         let (force, overlap) = (EndRule::ZeroForce, EndRule::ZeroOverlap);
         let constant = FittedLaw {
@@ -79,8 +85,11 @@ impl DemExport {
             values: vec![law.stiffness(), law.damping()],
             validity: constant_validity,
         };
-        let viscoelastic = viscoelastic(scene, &curve, tolerance, force)?;
-        let mut hunt_crossley = fit_dissipation(&curve.points)?;
+        let viscoelastic = viscoelastic(scene, &curve, tolerance, is_lossless)?;
+        let mut hunt_crossley = match is_lossless {
+            true => Some(HuntCrossley::LOSSLESS),
+            false => fit_dissipation(&curve.points)?,
+        };
         if let Some(fitted) = &mut hunt_crossley {
             let made = |speed: f64| Ok(restitution_of(fitted.dissipation * speed));
             fitted.validity = curve.validity(tolerance, made)?;
@@ -88,7 +97,8 @@ impl DemExport {
         let (mut springs, mut mdr) = (None, None);
         let mut laws = vec![constant, viscoelastic, linear];
         let has_strength = scene.bodies().iter().any(|body| body.yield_strength().is_some());
-        if has_strength || curve.law.is_some_and(LawFamily::is_elastic_plastic) {
+        let dents = has_strength || curve.law.is_some_and(LawFamily::is_elastic_plastic);
+        if dents && !is_lossless {
             if let Some(fitted) = fit_springs(&pair, &curve.points)? {
                 let model = model_of(scene, LawFamily::Luding, force)?;
                 let values = vec![fitted.ratio, fitted.loading, fitted.depth];
@@ -102,7 +112,7 @@ impl DemExport {
                     validity,
                 });
             }
-            if let Some(law) = by_mdr(case, &curve, tolerance) {
+            if let Some(law) = by_mdr(case, plate, &curve, tolerance) {
                 mdr = Some(([law.values[0], law.values[1]], law.validity));
                 laws.push(law);
             }
@@ -120,7 +130,8 @@ impl DemExport {
             hunt_crossley,
             springs,
             mdr,
-            unknown_loss: curve.unknown_loss.clone(),
+            bounds: curve.bounds.clone(),
+            notes: notes(&curve, is_lossless),
             band: curve.band.as_ref().map(|band| (band.confidence, band.widest())),
         };
         Ok(Self { curve, export, laws })
@@ -133,24 +144,46 @@ fn one_contact_time(points: &[Point]) -> f64 {
     inverse().sum::<f64>() / inverse().map(|rate| rate * rate).sum::<f64>()
 }
 
+/// Returns what a file must say of its restitutions apart from bounds.
+fn notes(curve: &ImpactCurve, is_lossless: bool) -> Vec<String> {
+    let elastic = curve.meant_elastic.iter().map(|name| {
+        format!("the case means {name} to be elastic (elastic = true): e has no damping of it")
+    });
+    let lossless = is_lossless.then(|| "e is 1 at all speeds: nothing is lost".to_string());
+    curve.left_out.iter().cloned().chain(elastic).chain(lossless).collect()
+}
+
 /// Fits Kuwabara & Kono's law to the restitutions, without the contact times.
 fn viscoelastic(
     scene: &Scene,
     curve: &ImpactCurve,
     tolerance: f64,
-    end_rule: EndRule,
+    is_lossless: bool,
 ) -> Result<FittedLaw, FitError> {
-    let model = model_of(scene, LawFamily::KuwabaraKono, end_rule)?;
+    let model = model_of(scene, LawFamily::KuwabaraKono, EndRule::ZeroForce)?;
     let points = timeless(&curve.points);
-    let values = Problem::new(&model, &points, &["a"])?.fit(CONFIDENCE)?.values;
+    let values = match is_lossless {
+        true => vec![0.0],
+        false => Problem::new(&model, &points, &["a"])?.fit(CONFIDENCE)?.values,
+    };
     let validity =
         curve.validity(tolerance, |speed| Ok(model.outcome(&values, speed)?.restitution))?;
     Ok(FittedLaw { name: "viscoelastic (Kuwabara-Kono)", model, values, validity })
 }
 
 /// Fits the yield strength of LAMMPS' `mdr` to the restitutions; `None` if no strength makes them.
-fn by_mdr(case: &Case, curve: &ImpactCurve, tolerance: f64) -> Option<FittedLaw> {
-    let law = ChosenLaw::of(case, LawFamily::Mdr, &[], None).ok()?;
+fn by_mdr(
+    case: &Case,
+    plate: Option<usize>,
+    curve: &ImpactCurve,
+    tolerance: f64,
+) -> Option<FittedLaw> {
+    let on_block = case.edited(|file| {
+        if let Some(body) = plate.map(|side| &mut file.body[side]) {
+            (body.plate, body.half_space) = (None, Some(EmptyTable {}));
+        }
+    });
+    let law = ChosenLaw::of(&on_block.ok()?, LawFamily::Mdr, &[], None).ok()?;
     let points = timeless(&curve.points);
     let values = law.problem(&points, &["yield_strength"]).ok()?.fit(CONFIDENCE).ok()?.values;
     let model = law.model().clone();

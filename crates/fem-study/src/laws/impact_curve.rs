@@ -1,17 +1,13 @@
 //! Restitution and contact time over speed, to which the laws of other codes are fitted.
 
 use crate::fit::{FitError, Point};
-use fem_case::schema::{ModelTable, TingTable};
-use fem_case::{Body, Case, ModelChoice, Scene};
-use fem_laws::{EndRule, HertzImpact, ImpactQuantities, LawFamily, Pair};
+use fem_case::Scene;
+use fem_case::engineering::show;
+use fem_laws::{HertzImpact, LawFamily, Pair};
 
-use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use super::stored_fit::{RestitutionBand, StoredFit};
-use crate::measured::{DataError, Restitutions};
-use fem_simulation::{
-    Reduced, bounds_of_closed_forms, mean_pressure_impact, restitution_with_adhesion,
-};
+use crate::measured::{ACCEPTED_BOUNDS, DataError, Restitutions};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
@@ -25,8 +21,12 @@ pub struct ImpactCurve {
     pub points: Vec<Point>,
     /// Whether Hertz' contact times replace missing ones.
     pub has_hertz_times: bool,
-    /// Materials whose loss is taken as 0 because the caller asks for elastic bodies; empty for measured data.
-    pub unknown_loss: Vec<String>,
+    /// The speeds at which the restitution is an upper bound that the caller takes as it is, each with the reason.
+    pub bounds: Vec<String>,
+    /// The speeds that are left out, each with the reason.
+    pub left_out: Vec<String>,
+    /// Materials that the case means to be elastic, in a computed curve.
+    pub meant_elastic: Vec<String>,
     /// The law that the curve is that of, if it was fitted to data or stands in for elements that flow.
     pub law: Option<LawFamily>,
     /// The deviation of e that is explained by the scatter of the data: three standard deviations of measured points, one
@@ -37,21 +37,36 @@ pub struct ImpactCurve {
 }
 
 impl ImpactCurve {
-    /// Returns the curve of data. If a contact time is missing, Hertz' contact times with instantaneous moduli replace
-    /// all.
+    /// Returns the curve of data, without those of bodies that stay together. If a contact time is missing, Hertz' contact
+    /// times with instantaneous moduli replace all.
     ///
     /// # Errors
-    /// The data have one speed only, or a speed has no Hertz impact.
+    /// The data have one speed only, the bodies stay together at all others, or a speed has no Hertz impact.
     pub fn measured(scene: &Scene, data: &Restitutions) -> Result<Self, LawFault> {
         if data.points.len() < 2 {
             let error = DataError::new(&data.name, "one speed only");
             return Err(error.with_help("a range of validity needs two speeds or more").into());
         }
-        let curve = Self::of(&scene.pair()?, data.points.clone())?;
+        let (parted, together): (Vec<Point>, Vec<Point>) =
+            data.points.iter().partition(|point| point.restitution > 0.0);
+        let speeds = together.iter().map(|point| point.speed);
+        let left_out = speeds.reduce(f64::max).map(|fastest| {
+            format!(
+                "up to {} the bodies stay together, which no dashpot states",
+                show(fastest, "m/s")
+            )
+        });
+        if let Some(reason) = left_out.as_ref().filter(|_| parted.len() < 2) {
+            let help = "give restitutions at two or more speeds at which the bodies part";
+            return Err(LawFault::Sticks(reason.clone(), help.to_string()));
+        }
+        let curve = Self::of(&scene.pair()?, parted)?;
         let uncertainties = data.points.iter().map(|point| point.restitution_uncertainty);
         let given: Option<Vec<f64>> = uncertainties.collect();
         let deviation = given.map_or_else(|| standard_deviation(&curve.points), |all| rms(&all));
-        Ok(Self { scatter: 3.0 * deviation, ..curve })
+        let bounds = data.accepted_bounds().into_iter().collect();
+        let left_out = left_out.into_iter().map(|reason| format!("speeds are left out: {reason}"));
+        Ok(Self { scatter: 3.0 * deviation, bounds, left_out: left_out.collect(), ..curve })
     }
 
     /// Computes the curve of a fitted law over the speeds of its data, or from one speed to another, m/s.
@@ -68,80 +83,12 @@ impl ImpactCurve {
         let points = points.collect::<Result<_, FitError>>()?;
         let curve = Self::of(fit.model.pair(), points)?;
         let band = fit.band.clone();
-        Ok(Self { law: Some(fit.family()), scatter: fit.scatter, band, ..curve })
+        let bounds = fit.warnings.iter().filter(|warning| warning.contains(ACCEPTED_BOUNDS));
+        let bounds = bounds.map(|warning| format!("of the fitted data, {warning}")).collect();
+        Ok(Self { law: Some(fit.family()), scatter: fit.scatter, band, bounds, ..curve })
     }
 
-    /// Computes the curve with the case's contact law, or Ting's model in place of any other and the mean-pressure law for bodies
-    /// that flow, from one speed to another, m/s, or over a decade around that of the case. Speeds at which the restitution is
-    /// a bound are left out, unless bodies count as elastic.
-    ///
-    /// # Errors
-    /// The restitution is a bound at the case's speed or at most speeds; the case has no such model; the bodies stick; or a
-    /// collision cannot be computed.
-    pub fn computed(
-        case: &Case,
-        speeds: Option<(f64, f64)>,
-        as_elastic: bool,
-    ) -> Result<Self, LawFault> {
-        let scene = case.scene();
-        let (middle, decade) = (scene.approach_speed(), 10f64.sqrt());
-        let range = speeds.unwrap_or((middle / decade, middle * decade));
-        let is_known = |speed: &f64| as_elastic || bounds_of_closed_forms(scene, *speed).is_empty();
-        let known: Vec<f64> = speeds_between(range).filter(is_known).collect();
-        if known.len() < 2 {
-            return Err(LawFault::Bound(bounds_of_closed_forms(scene, middle)));
-        }
-        let is_law = matches!(scene.model(), ModelChoice::Law { .. });
-        if scene.flows() && !is_law && !as_elastic {
-            return Self::flowing(case, &known);
-        }
-        let reduced = reduced(case)?;
-        let point = |speed: f64| {
-            let impact = reduced.impact(speed)?;
-            let restitution = restitution_with_adhesion(scene, speed, impact.restitution);
-            let point = Point::new(speed, restitution);
-            Ok(Point { contact_time: impact.contact_time, ..point })
-        };
-        let points = known.into_iter().map(point).collect::<Result<_, FitError>>()?;
-        let of_elastic = scene.bodies_of_unknown_loss(false).filter(|_| as_elastic);
-        let mut unknown_loss: Vec<String> =
-            of_elastic.filter_map(|body| body.material_name().map(String::from)).collect();
-        unknown_loss.dedup();
-        Ok(Self { unknown_loss, ..Self::of(&reduced.scene().pair()?, points)? })
-    }
-
-    /// Computes the curve of bodies that flow by the mean-pressure law, whose error is the scatter. Beside a body that relaxes
-    /// it takes the restitution of both losses as the product of both, of which half of the second one is uncertain.
-    fn flowing(case: &Case, speeds: &[f64]) -> Result<Self, LawFault> {
-        let scene = case.scene();
-        let pair = scene.pair()?;
-        let relaxes = |body: &Body| body.material().is_some_and(|it| it.relaxation().is_some());
-        let relaxing = match scene.bodies().iter().any(relaxes) {
-            true => Some(reduced(case)?),
-            false => None,
-        };
-        let mut scatter = 0.0f64;
-        let points = speeds.iter().map(|&speed| {
-            let hertz = HertzImpact::new(&pair, speed)?;
-            let flowing = mean_pressure_impact(scene, &hertz);
-            let impact = flowing.map_or(ImpactQuantities::from(&hertz), |it| it.quantities);
-            let error = flowing.map_or(0.0, |it| it.errors[0] * it.quantities.restitution);
-            let relaxed = match &relaxing {
-                Some(reduced) => reduced.impact(speed)?.restitution,
-                None => 1.0,
-            };
-            scatter = scatter.max(error + 0.5 * (1.0 - relaxed) * impact.restitution);
-            let restitution = restitution_with_adhesion(scene, speed, relaxed * impact.restitution);
-            let point = Point::new(speed, restitution);
-            let contact_time = Some(impact.contact_time).filter(|time| time.is_finite());
-            Ok(Point { contact_time, ..point })
-        });
-        let points = points.collect::<Result<_, FitError>>()?;
-        let curve = Self::of(&pair, points)?;
-        Ok(Self { law: Some(LawFamily::MeanPressure), scatter, ..curve })
-    }
-
-    fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {
+    pub(super) fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {
         points.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         let has_hertz_times = points.iter().any(|point| point.contact_time.is_none());
         for point in &mut points {
@@ -150,8 +97,9 @@ impl ImpactCurve {
             }
             point.restitution_uncertainty = None;
         }
-        let (unknown_loss, law, scatter, band) = (Vec::new(), None, 0.0, None);
-        Ok(Self { points, has_hertz_times, unknown_loss, law, scatter, band })
+        let (bounds, left_out, meant_elastic) = (Vec::new(), Vec::new(), Vec::new());
+        let (law, scatter, band) = (None, 0.0, None);
+        Ok(Self { points, has_hertz_times, bounds, left_out, meant_elastic, law, scatter, band })
     }
 
     /// Returns the slowest and the fastest speed, m/s.
@@ -198,7 +146,7 @@ impl ImpactCurve {
 }
 
 /// Returns speeds in equal ratios, m/s.
-fn speeds_between((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
+pub(super) fn speeds_between((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
     (0..N_SPEEDS).map(move |k| low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64))
 }
 
@@ -221,18 +169,6 @@ fn standard_deviation(points: &[Point]) -> f64 {
         (line - middle.restitution) / weight.sqrt()
     };
     rms(&points.windows(3).map(distance).collect::<Vec<_>>())
-}
-
-/// Returns the case's own model, or Ting's in place of one with elements.
-fn reduced(case: &Case) -> Result<Reduced, LawFault> {
-    let of = |case: &Case| Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case));
-    if !matches!(case.scene().model(), ModelChoice::Fem | ModelChoice::Condensed(_)) {
-        return Ok(of(case)?);
-    }
-    model_of(case.scene(), LawFamily::Ting, EndRule::ZeroForce).map_err(LawFault::NoStandIn)?;
-    let half_spaces = TingTable { finite_size: Some(false), ..TingTable::default() };
-    let model = ModelTable { ting: Some(half_spaces), ..ModelTable::default() };
-    Ok(of(&case.edited(|file| file.model = Some(model))?)?)
 }
 
 #[cfg(test)]

@@ -54,9 +54,9 @@ pub enum LawFault {
     /// The restitution is a bound: the reasons.
     #[error("the restitution is a bound, and no number for a law: {}", .0.join("; "))]
     Bound(Vec<String>),
-    /// No reduced model can replace the finite elements of the case.
-    #[error(transparent)]
-    NoStandIn(FitError),
+    /// The bodies stay together: the message and the way out.
+    #[error("{0}")]
+    Sticks(String, String),
 }
 
 /// The collision is impossible.

@@ -41,6 +41,7 @@
 //! ```
 
 mod chosen_law;
+mod computed_curve;
 mod dem_export;
 mod impact_curve;
 mod law_fault;

@@ -1,9 +1,9 @@
 //! The laws of DEM codes for every pair of some materials and sizes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::fit::FitError;
-use crate::fit::dem::{Grain, PairOfGrains, Sphere};
+use crate::fit::dem::{Export, Grain, PairOfGrains, Sphere, grouped};
 use fem_case::schema::SphereTable;
 use fem_case::{Case, library, nearest};
 use serde::Serialize;
@@ -32,10 +32,10 @@ pub struct PairExport {
 /// Two grains and their laws.
 #[derive(Clone, Debug)]
 pub struct FittedPair {
-    /// The pair with its restitution, 1 if it loses no energy.
+    /// The pair with its restitution.
     pub pair: PairOfGrains,
-    /// The laws of the pair; `None` if it loses no energy.
-    pub export: Option<DemExport>,
+    /// The laws of the pair.
+    pub export: DemExport,
 }
 
 /// A row of the table, SI.
@@ -49,20 +49,22 @@ pub struct PairNumbers {
     pub second_material: String,
     /// Diameter of the second sphere.
     pub second_diameter_m: f64,
-    /// Slowest speed of the fit; `None` if no energy is lost.
-    pub slowest_m_s: Cell,
+    /// Slowest speed of the fit.
+    pub slowest_m_s: f64,
     /// Fastest speed of the fit.
-    pub fastest_m_s: Cell,
+    pub fastest_m_s: f64,
     /// The constant restitution.
     pub restitution: f64,
     /// First speed of its range of validity; `None` if it is valid nowhere.
     pub good_from_m_s: Cell,
     /// Last speed of its range of validity.
     pub good_to_m_s: Cell,
-    /// Its largest error over the speeds of the fit; `None` if the loss is not known.
+    /// Its largest error over the speeds of the fit; `None` if it is an upper bound.
     pub worst_error: Cell,
-    /// Materials whose loss is taken as 0 because none is known: the restitution is too high.
-    pub unknown_loss: Vec<String>,
+    /// The speeds at which it is an upper bound, with the reasons.
+    pub bounds: Vec<String>,
+    /// Other comments on it, such as the speeds that are left out.
+    pub notes: Vec<String>,
     /// The entries of each code: `lammps_viscoelastic_eta`, ….
     pub entries: BTreeMap<String, f64>,
 }
@@ -94,35 +96,25 @@ impl PairExport {
                 grains[place] = Some(Grain { material: kinds[place].0.clone(), sphere });
             }
             let pair = collision.scene().pair().map_err(FitError::from)?;
-            let curve = ImpactCurve::computed(&collision, speeds, as_elastic);
-            let unknown_loss = curve.as_ref().map_or(Vec::new(), |it| it.unknown_loss.clone());
-            let export = fitted(&collision, curve, tolerance)?;
-            let restitution = export.as_ref().map_or(1.0, |of| of.export.restitution);
-            let grains = [first, second];
-            let pair = PairOfGrains { grains, pair, restitution, unknown_loss };
+            let curve = ImpactCurve::computed(&collision, speeds, as_elastic)?;
+            let export = DemExport::of(&collision, curve, tolerance)?;
+            let Export { restitution, bounds, notes, .. } = export.export.clone();
+            let pair = PairOfGrains { grains: [first, second], pair, restitution, bounds, notes };
             pairs.push(FittedPair { pair, export });
         }
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
     }
 
-    /// Returns the warnings about materials whose loss is not known.
+    /// Returns warnings of restitutions that are bounds, and of speeds that are left out.
     pub fn warnings(&self) -> Vec<String> {
-        let mut names: Vec<&str> = Vec::new();
-        for name in self.pairs.iter().flat_map(|fitted| &fitted.pair.unknown_loss) {
-            if !names.contains(&name.as_str()) {
-                names.push(name);
-            }
-        }
-        match names.as_slice() {
-            [] => Vec::new(),
-            names => vec![format!(
-                "the loss of {} in an impact is not known and not included: e of {} pairs is too high by an \
-                 unknown amount; give material.NAME.relaxation (fem-run materials NAME prints a table to \
-                 copy), or name a law with damping in [model]",
-                names.join(", "),
-                if names.len() == 1 { "its" } else { "their" }
-            )],
-        }
+        let pairs = self.of_codes();
+        let (n, bounds) = (pairs.len(), grouped(&pairs, |pair| &pair.bounds));
+        let left_out = self.pairs.iter().flat_map(|fitted| &fitted.export.curve.left_out);
+        let left_out: BTreeSet<&String> = left_out.collect();
+        let notes = grouped(&pairs, |pair| &pair.notes).into_iter();
+        let notes = notes.filter(|(text, _)| left_out.iter().any(|known| known == text));
+        let groups = bounds.into_iter().chain(notes);
+        groups.map(|(text, found)| format!("{} of {n} pairs: {text}", found.len())).collect()
     }
 
     /// Returns the pairs for the input of the codes.
@@ -138,24 +130,23 @@ impl PairExport {
     fn row(&self, fitted: &FittedPair) -> PairNumbers {
         let FittedPair { pair, export } = fitted;
         let [first, second] = pair.grains.map(|place| &self.grains[place]);
-        let laws = export.as_ref();
-        let speeds = laws.map(|of| of.export.speeds);
-        let validity = laws.map(|of| of.export.validity);
-        let is_known = pair.unknown_loss.is_empty();
-        let good = validity.filter(|[from, to, _]| from <= to && is_known);
+        let Export { speeds, validity, .. } = export.export;
+        let known = Some(validity).filter(|_| pair.bounds.is_empty());
+        let good = known.filter(|[from, to, _]| from <= to);
         PairNumbers {
             first_material: first.material.clone(),
             first_diameter_m: first.sphere.diameter,
             second_material: second.material.clone(),
             second_diameter_m: second.sphere.diameter,
-            slowest_m_s: speeds.map(|speeds| speeds.0),
-            fastest_m_s: speeds.map(|speeds| speeds.1),
+            slowest_m_s: speeds.0,
+            fastest_m_s: speeds.1,
             restitution: pair.restitution,
             good_from_m_s: good.map(|good| good[0]),
             good_to_m_s: good.map(|good| good[1]),
-            worst_error: validity.filter(|_| is_known).map(|validity| validity[2]),
-            unknown_loss: pair.unknown_loss.clone(),
-            entries: laws.map(entries).unwrap_or_default(),
+            worst_error: known.map(|validity| validity[2]),
+            bounds: pair.bounds.clone(),
+            notes: pair.notes.clone(),
+            entries: entries(export),
         }
     }
 }
@@ -250,7 +241,13 @@ fn check_material(case: &Case, name: &str) -> Result<(), LawFault> {
 /// Returns the case with spheres of two kinds.
 fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFault> {
     let edited = case.edited(|file| {
-        for (body, (material, diameter)) in file.body.iter_mut().zip(kinds) {
+        let is_one = kinds[0].0 == kinds[1].0;
+        for ((body, (material, diameter)), side) in file.body.iter_mut().zip(kinds).zip(0..) {
+            // Comments on pairs name the bodies.
+            let name = material.trim_start_matches("lib:");
+            let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+            let name: String = name.chars().map(|c| if is_letter(c) { c } else { '-' }).collect();
+            body.name = if is_one && side == 1 { name + "-2" } else { name };
             body.material = Some(material.clone());
             body.sphere = Some(SphereTable::new(*diameter));
             (body.wall, body.half_space, body.plate, body.held) = (None, None, None, None);
@@ -258,21 +255,4 @@ fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFaul
         file.gravity = None;
     });
     Ok(edited?)
-}
-
-/// Returns the laws of a pair with this curve; `None` if it loses no energy.
-fn fitted(
-    case: &Case,
-    curve: Result<ImpactCurve, LawFault>,
-    tolerance: f64,
-) -> Result<Option<DemExport>, LawFault> {
-    let curve = match curve {
-        Err(LawFault::NoStandIn(FitError::NoRelaxation)) => return Ok(None),
-        curve => curve?,
-    };
-    match DemExport::of(case, curve, tolerance) {
-        Ok(export) => Ok(Some(export)),
-        Err(FitError::Insensitive { .. }) => Ok(None),
-        Err(error) => Err(error.into()),
-    }
 }

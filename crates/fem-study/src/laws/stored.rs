@@ -129,7 +129,8 @@ impl DemExport {
             "dissipation_time_s": export.dissipation_time.0,
             "linear_contact_time_s": export.contact_time,
             "has_hertz_times": self.curve.has_hertz_times,
-            "unknown_loss": export.unknown_loss,
+            "bounds": export.bounds,
+            "notes": export.notes,
             "band": self.curve.band.as_ref().map(|band| json!({
                 "confidence": band.confidence,
                 "largest_half_width": band.widest(),

@@ -50,6 +50,7 @@ pub use moduli::{Modulus, ModulusPoint, ModulusTable, TestKind};
 pub use number_columns::{NumberColumn, NumberColumns};
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
+pub(crate) use restitutions::ACCEPTED_BOUNDS;
 pub use restitutions::{MAX_UNCERTAINTY, Restitutions, UncertaintyError, UnevenUncertainties};
 #[cfg(feature = "csv")]
 pub use rows::rows_below;

@@ -59,9 +59,9 @@ impl Restitutions {
         Ok(read_rows(table, scene, Wanted::default())?.0)
     }
 
-    /// Returns the table without what it says of bounds, so that they are read as they are.
+    /// Returns the table with a mark that restitutions which are bounds are read as they are.
     pub fn as_elastic(table: Table) -> Table {
-        table.without(STATUS)
+        table.with_name(STATUS, ACCEPTED_STATUS)
     }
 
     /// Reads restitutions, and contact times if the table has them.
@@ -106,9 +106,12 @@ fn read_rows(
     }
     let n_left_out = table.n_rows() - points.len();
     let uneven = even_out(&mut points, &mut rows);
+    let is_bound = |row: usize| columns.accepted.is_some_and(|it| is_bound(table, row, it));
+    let bounds = points.iter().zip(&rows).filter(|(_, row)| is_bound(**row));
     let restitutions = Restitutions {
         name: table.name().to_string(),
         n_left_out,
+        bounds: bounds.map(|(point, _)| point.speed).collect(),
         uneven,
         lines: rows.iter().map(|row| table.line(*row)).collect(),
         points,
@@ -139,6 +142,8 @@ fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUnce
 
 /// Column of a sweep that says what the restitution is.
 const STATUS: &str = "restitution_status";
+/// Its name where bounds are read as they are.
+const ACCEPTED_STATUS: &str = "accepted_restitution_status";
 
 const SPEED: [i32; 3] = [1, 0, -1];
 const TIME: [i32; 3] = [0, 0, 1];
@@ -171,6 +176,8 @@ struct Columns {
     complete: Option<usize>,
     /// Whether the restitution of a sweep's member is a bound.
     status: Option<usize>,
+    /// The same where bounds are read as they are.
+    accepted: Option<usize>,
 }
 
 impl Columns {
@@ -198,11 +205,13 @@ impl Columns {
             },
             complete: table.find(&["complete"])?,
             status: table.find(&[STATUS])?,
+            accepted: table.find(&[ACCEPTED_STATUS])?,
         })
     }
 
     pub fn read(&self) -> Vec<usize> {
-        let optional = [self.uncertainty, self.contact_time, self.complete, self.status];
+        let Self { uncertainty, contact_time, complete, status, accepted, .. } = *self;
+        let optional = [uncertainty, contact_time, complete, status, accepted];
         let required = self.speeds.iter().copied().chain([self.restitution]);
         required.chain(optional.into_iter().flatten()).collect()
     }
@@ -239,7 +248,7 @@ impl Columns {
                      restitution_percent for per cents",
                 ));
         }
-        if self.status.is_some_and(|status| table.text(row, status) == Status::Bound.word()) {
+        if self.status.is_some_and(|status| is_bound(table, row, status)) {
             let message = format!(
                 "the restitution {} is an upper bound, and no number for a law",
                 number(restitution, 4)
@@ -259,6 +268,11 @@ impl Columns {
         };
         Ok(Point { speed, restitution, restitution_uncertainty, contact_time })
     }
+}
+
+/// Whether a cell of a column of statuses says that the restitution is a bound.
+fn is_bound(table: &Table, row: usize, status: usize) -> bool {
+    table.text(row, status) == Status::Bound.word()
 }
 
 /// Whether the first cell of a column of speeds has a text that is no speed.

@@ -4,9 +4,13 @@ use crate::fit::Point;
 use crate::fit::cradle::{Measured, impossible_restitution};
 
 use super::data_error::DataError;
+use fem_case::engineering::show;
 
 /// Larger uncertainties carry no information about a number between 0 and 1.
 pub const MAX_UNCERTAINTY: f64 = 1.0;
+
+/// The words of a warning about restitutions that are bounds.
+pub(crate) const ACCEPTED_BOUNDS: &str = "restitutions are upper bounds, taken as they are";
 
 /// Restitutions over speeds, each with its place in the data.
 ///
@@ -27,6 +31,8 @@ pub struct Restitutions {
     pub lines: Vec<u64>,
     /// Number of rows of failed members, or without a speed or a restitution.
     pub n_left_out: usize,
+    /// Speeds (m/s) of restitutions that are upper bounds and are taken as they are.
+    pub bounds: Vec<f64>,
     /// The treatment of an uncertainty that only some rows have.
     pub uneven: Option<UnevenUncertainties>,
     /// Columns that are not read.
@@ -64,7 +70,8 @@ impl Restitutions {
     pub fn of(name: &str, points: &[(f64, f64)]) -> Self {
         let points = points.iter().map(|(speed, e)| Point::new(*speed, *e)).collect();
         let name = name.to_string();
-        Self { name, points, lines: Vec::new(), n_left_out: 0, uneven: None, unread: Vec::new() }
+        let (lines, bounds, unread) = (Vec::new(), Vec::new(), Vec::new());
+        Self { name, points, lines, n_left_out: 0, bounds, uneven: None, unread }
     }
 
     /// Gives all points the same standard uncertainty.
@@ -114,11 +121,22 @@ impl Restitutions {
             )),
             None => {}
         }
+        warnings.extend(self.accepted_bounds());
         warnings.extend(self.impossible());
         if !self.unread.is_empty() {
             warnings.push(format!("columns that are not read: {}", self.unread.join(", ")));
         }
         warnings
+    }
+
+    /// Returns a warning of restitutions that are upper bounds and are taken as they are.
+    pub fn accepted_bounds(&self) -> Option<String> {
+        let n = self.bounds.len();
+        let [slow, fast] = [(f64::INFINITY, f64::min as fn(f64, f64) -> f64), (0.0, f64::max)]
+            .map(|(start, pick)| show(self.bounds.iter().copied().fold(start, pick), "m/s"));
+        (n > 0).then(|| {
+            format!("{n} of {} {ACCEPTED_BOUNDS}, from {slow} to {fast}", self.points.len())
+        })
     }
 
     /// Returns a warning of the largest restitution above 1, which no collision has.

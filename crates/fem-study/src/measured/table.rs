@@ -48,14 +48,10 @@ const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
 const MISSPELT: f64 = 0.9;
 
 impl Table {
-    /// Returns the table without the column of this name.
-    pub(super) fn without(mut self, column: &str) -> Self {
-        if let Some(place) = self.header.iter().position(|header| header == column) {
-            self.header.remove(place);
-            self.rows.iter_mut().for_each(|(_, cells)| drop(cells.remove(place)));
-            self.named.retain(|named| *named != place);
-            self.named.iter_mut().filter(|named| **named > place).for_each(|named| *named -= 1);
-        }
+    /// Returns the table with another name of a column, if it has that column.
+    pub(super) fn with_name(mut self, column: &str, name: &str) -> Self {
+        let found = self.header.iter_mut().find(|header| *header == column);
+        found.into_iter().for_each(|header| *header = name.to_string());
         self
     }
 

@@ -36,7 +36,8 @@ fn export() -> Export {
         hunt_crossley: None,
         springs: None,
         mdr: None,
-        unknown_loss: Vec::new(),
+        bounds: Vec::new(),
+        notes: Vec::new(),
         band: None,
     }
 }
@@ -91,42 +92,50 @@ fn springs_that_dent_come_back_and_make_their_restitution() {
     assert_eq!(fit_springs(&pair, &lossless).unwrap(), None);
 }
 
-/// Every file warns of a missing loss, and only then.
+/// Every file states that a restitution is a bound, and what else is to say of it.
 #[test]
-fn files_name_materials_without_a_known_loss() {
+fn files_state_bounds_and_notes() {
     let hunt_crossley = HuntCrossley { dissipation: 0.1, rms: 0.01, validity: [0.1, 1.0, 0.004] };
-    let unknown_loss = vec!["steel".to_string()];
-    let of = |unknown_loss: Vec<String>| {
-        let hunt_crossley = Some(hunt_crossley);
-        let export = Export { unknown_loss, hunt_crossley, ..export() };
+    let comments = |text: &str| vec![text.to_string()];
+    let of = |bounds: Vec<String>, notes: Vec<String>| {
+        let export = Export { bounds, notes, hunt_crossley: Some(hunt_crossley), ..export() };
         let all = export.snippets().unwrap();
         let codes: std::collections::BTreeSet<_> = all.iter().map(|one| one.code).collect();
         assert_eq!(codes.len(), 8);
         all
     };
-    for snippet in of(unknown_loss.clone()) {
+    for snippet in of(comments("no damping is known"), comments("slow speeds are left out")) {
         let text = &snippet.text;
-        assert!(text.contains("WARNING: no loss of steel is known"), "{text}");
+        assert!(text.contains("WARNING: no damping is known"), "{text}");
+        assert!(text.contains(" slow speeds are left out"), "{text}");
         assert!(!text.contains("e is good"), "{text}");
     }
-    assert!(of(Vec::new()).iter().all(|snippet| !snippet.text.contains("WARNING")));
+    for snippet in of(Vec::new(), Vec::new()) {
+        assert!(!snippet.text.contains("WARNING") && snippet.text.contains("e is good"));
+    }
 
     let sphere = export().spheres[0];
     let grain = |material: &str| Grain { material: material.to_string(), sphere };
-    let pair = |grains, unknown_loss| PairOfGrains {
+    let pair = |grains, bounds, notes| PairOfGrains {
         grains,
         pair: export().pair,
         restitution: 0.9,
-        unknown_loss,
+        bounds,
+        notes,
     };
     let grains = [grain("glass"), grain("steel")];
-    let pairs =
-        [pair([0, 0], Vec::new()), pair([0, 1], unknown_loss.clone()), pair([1, 1], unknown_loss)];
+    let (bounds, notes) = (comments("no damping is known"), comments("slow speeds are left out"));
+    let pairs = [
+        pair([0, 0], Vec::new(), notes),
+        pair([0, 1], bounds.clone(), Vec::new()),
+        pair([1, 1], bounds, Vec::new()),
+    ];
     let files = grain_snippets(&grains, &pairs);
     assert_eq!(files.len(), 3);
     for (name, text) in files {
-        let warning = "# WARNING: no loss of steel is known, and none is in e of 1 2, 2 2";
+        let warning = "# WARNING: e of 1 2, 2 2: no damping is known\n";
         assert_eq!(text.matches(warning).count(), 1, "{name}: {text}");
+        assert!(text.contains("# e of 1 1: slow speeds are left out\n"), "{name}: {text}");
         assert!(grain_snippets(&grains, &pairs[..1]).iter().all(|one| !one.1.contains("WARNING")));
     }
 }

@@ -1,8 +1,7 @@
-//! `fem-run export CASE`: input snippets for DEM codes from a sweep's restitutions, or from Ting's.
+//! `fem-run export CASE`: input snippets for DEM codes from measured, fitted or computed restitutions.
 
 use std::path::PathBuf;
 
-use fem::fit::FitError;
 use fem::fit::dem::{BAND_FILE, Snippet, grain_snippets};
 use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers, StoredFit};
 use fem::measured::{Restitutions, Table};
@@ -28,7 +27,8 @@ const PAIRS_TOLERANCE: f64 = 0.01;
 ///
 /// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. The restitutions come from
 /// the sweep.csv of a sweep over speeds, from a measurement, from a law fitted to one or, without --data
-/// and --fit, from the case's model: its law, or Ting's model in place of finite elements. Each snippet states the speeds for which it is valid.
+/// and --fit, from the case: its contact law or, in place of another model, the law mean_pressure where bodies flow and
+/// Ting's or Hertz' model elsewhere. Each snippet states the speeds for which it is valid.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -71,6 +71,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let table =
         arguments.data.as_deref().map(|path| arguments.restitutions.read(path)).transpose()?;
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
+    let ImpactCurve { bounds, left_out, .. } = &fitted.curve;
+    // Those of a fit are among its own warnings.
+    let bounds = bounds.iter().filter(|_| arguments.fit.is_none());
+    standard_output::warn(bounds.chain(left_out).cloned());
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(&case))?;
     for snippet in &snippets {
@@ -214,18 +218,7 @@ fn fitted(
         }
     };
     let tolerance = tolerance.unwrap_or_else(|| curve.default_tolerance());
-    let fitted = DemExport::of(case, curve, tolerance).map_err(|error| {
-        let is_lossless = matches!(error, FitError::Insensitive { .. });
-        let failure = Failure::from(error);
-        if is_lossless {
-            failure.with_help(
-                "an elastic contact has restitution 1 and needs no fit; if there is a loss, narrow \
-                 the range of speeds",
-            )
-        } else {
-            failure
-        }
-    })?;
+    let fitted = DemExport::of(case, curve, tolerance)?;
     let snippets = fitted.export.snippets()?;
     Ok((fitted, snippets))
 }

@@ -103,9 +103,9 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
             grain(&row.first_material, row.first_diameter_m),
             grain(&row.second_material, row.second_diameter_m),
             format!("{:.4}", row.restitution),
-            match row.unknown_loss.as_slice() {
-                [] => valid_speeds(row.good_from_m_s, row.good_to_m_s),
-                materials => format!("no known loss: {}", materials.join(", ")),
+            match row.bounds.is_empty() {
+                true => valid_speeds(row.good_from_m_s, row.good_to_m_s),
+                false => "an upper bound".to_string(),
             },
             row.worst_error.map_or("not known".to_string(), |error| format!("{error:.4}")),
         ]
@@ -137,7 +137,8 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
         "good_from_m_s",
         "good_to_m_s",
         "worst_error",
-        "no_loss_known_of",
+        "upper_bound_since",
+        "comment",
     ];
     let header = fixed.into_iter().chain(keys.iter().map(|key| key.as_str()));
     writer.write_record(header).map_err(failed)?;
@@ -148,13 +149,14 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
             number(Some(row.first_diameter_m)),
             row.second_material.clone(),
             number(Some(row.second_diameter_m)),
-            number(row.slowest_m_s),
-            number(row.fastest_m_s),
+            number(Some(row.slowest_m_s)),
+            number(Some(row.fastest_m_s)),
             number(Some(row.restitution)),
             number(row.good_from_m_s),
             number(row.good_to_m_s),
             number(row.worst_error),
-            row.unknown_loss.join(" "),
+            row.bounds.join("; "),
+            row.notes.join("; "),
         ];
         cells.extend(keys.iter().map(|key| number(row.entries.get(*key).copied())));
         writer.write_record(cells).map_err(failed)?;

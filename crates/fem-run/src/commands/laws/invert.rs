@@ -20,7 +20,7 @@ use crate::text::{Failure, headed, show_value};
 ///
 /// The case gives the two bodies and the speed. For the law `ting` the parameter is the decay rate of the
 /// bodies' relaxation. Without --law, the case's law is used, or else all laws that need only one
-/// parameter.
+/// parameter, mean_pressure first if a body has a yield strength.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -130,7 +130,10 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
         let message = format!("{option} needs a law");
         return Err(Failure::bad_input(message).with_help("name it with --law"));
     }
-    let families: Vec<LawFamily> = law.map_or(LawFamily::ALL.to_vec(), |law| vec![law]);
+    let mut families: Vec<LawFamily> = law.map_or(LawFamily::ALL.to_vec(), |law| vec![law]);
+    // The law that follows elements comes first for bodies that yield.
+    let yields = case.scene().bodies().iter().any(|body| body.yield_strength().is_some());
+    families.sort_by_key(|family| !(yields && *family == LawFamily::MeanPressure));
     let mut answers = Vec::new();
     for family in families {
         match solve(arguments, case, family, speed) {

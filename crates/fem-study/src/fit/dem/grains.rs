@@ -6,10 +6,7 @@
 use fem_laws::Pair;
 
 use super::entries::mfix_entry;
-use super::{Sphere, short, unknown_loss};
-
-/// Longest list of pairs that stands in a sentence, in characters.
-const LONGEST_LIST: usize = 40;
+use super::{Sphere, commented, short};
 
 /// A material at a size: a type, or phase, of a code.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +26,27 @@ pub struct PairOfGrains {
     pub pair: Pair,
     /// Their restitution at all speeds.
     pub restitution: f64,
-    /// Materials whose loss is taken as 0 because the library has none: e is too high.
-    pub unknown_loss: Vec<String>,
+    /// The speeds at which e is an upper bound, with the reasons; empty if it is none.
+    pub bounds: Vec<String>,
+    /// Other comments on e, such as the speeds that are left out.
+    pub notes: Vec<String>,
+}
+
+/// Returns each different comment on pairs, with the pairs that it is one of.
+pub(crate) fn grouped(
+    pairs: &[PairOfGrains],
+    comments_of: impl Fn(&PairOfGrains) -> &[String],
+) -> Vec<(&str, Vec<[usize; 2]>)> {
+    let mut groups: Vec<(&str, Vec<[usize; 2]>)> = Vec::new();
+    for pair in pairs {
+        for text in comments_of(pair) {
+            match groups.iter_mut().find(|(known, _)| known == text) {
+                Some((_, found)) => found.push(pair.grains),
+                None => groups.push((text, vec![pair.grains])),
+            }
+        }
+    }
+    groups
 }
 
 /// Returns the names and the texts of the files; pairs are in the order 11, 12, …, 22, ….
@@ -52,22 +68,12 @@ fn heading(code: &str, kind: &str, grains: &[Grain], pairs: &[PairOfGrains]) -> 
         let material = material.replace(char::is_control, " ");
         text += &format!("# {kind} {}: {material}, {} m\n", index + 1, short(sphere.diameter));
     }
-    let mut by_materials: Vec<(&[String], Vec<String>)> = Vec::new();
-    for pair in pairs.iter().filter(|pair| !pair.unknown_loss.is_empty()) {
-        let [first, second] = pair.grains.map(|grain| grain + 1);
-        let (materials, name) = (pair.unknown_loss.as_slice(), format!("{first} {second}"));
-        match by_materials.iter_mut().find(|(known, _)| *known == materials) {
-            Some((_, names)) => names.push(name),
-            None => by_materials.push((materials, vec![name])),
-        }
-    }
-    for (materials, names) in by_materials {
-        let mut names = names.join(", ");
-        // Long lists are broken for readers, and each line is a comment.
-        if names.len() > LONGEST_LIST {
-            names = format!("the pairs\n# {names}\n# ");
-        }
-        text += &unknown_loss(&format!("e of {names}"), materials);
+    let bounds = grouped(pairs, |pair| &pair.bounds).into_iter().map(|group| ("WARNING: ", group));
+    let notes = grouped(pairs, |pair| &pair.notes).into_iter().map(|group| ("", group));
+    for (word, (comment, pairs)) in bounds.chain(notes) {
+        let names = pairs.iter().map(|pair| format!("{} {}", pair[0] + 1, pair[1] + 1));
+        let names = names.collect::<Vec<_>>().join(", ");
+        text += &commented(&format!("{word}e of {names}: {comment}"));
     }
     text
 }

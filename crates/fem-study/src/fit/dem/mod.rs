@@ -17,6 +17,7 @@ pub use entries::{
     hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry,
     tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
 };
+pub(crate) use grains::grouped;
 pub use grains::{Grain, PairOfGrains, grain_snippets};
 
 use std::collections::BTreeMap;
@@ -30,6 +31,8 @@ use fem_material::engineering::number;
 const SNIPPETS: &str = include_str!("snippets.txt");
 /// Name of the table of the confidence band, beside the snippets.
 pub const BAND_FILE: &str = "restitution_band.csv";
+/// Longest line of a comment, in characters.
+const LONGEST_LINE: usize = 110;
 /// The comment for codes that use the entries of 1 and 2 for 1 with 1 and 2 with 2 too.
 const UNLIKE: &str = "# Fitted for contacts of 1 with 2 alone: 1 with 1 and 2 with 2 are other pairs, which want an\n\
                       # export each; all at once: fem-run export CASE --diameters D1,D2.\n";
@@ -56,6 +59,11 @@ pub struct HuntCrossley {
     pub rms: f64,
     /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
     pub validity: [f64; 3],
+}
+
+impl HuntCrossley {
+    /// The dashpot of bodies that lose nothing.
+    pub const LOSSLESS: Self = Self { dissipation: 0.0, rms: 0.0, validity: [0.0; 3] };
 }
 
 /// Luding's springs without adhesion.
@@ -98,8 +106,10 @@ pub struct Export {
     pub springs: Option<DentingSprings>,
     /// Yield strength (Pa) and Poisson's ratio of LAMMPS' `mdr` for bodies that dent, and its validity.
     pub mdr: Option<([f64; 2], [f64; 3])>,
-    /// Materials whose loss is taken as 0 because the library has none: e is too high.
-    pub unknown_loss: Vec<String>,
+    /// The speeds at which e is an upper bound, with the reasons; empty if it is none.
+    pub bounds: Vec<String>,
+    /// Other comments on e, such as the speeds that are left out.
+    pub notes: Vec<String>,
     /// Confidence level and largest half-width of the band of a fitted e(v).
     pub band: Option<(f64, f64)>,
 }
@@ -372,8 +382,8 @@ impl Export {
             [one] => format!("a sphere of {one} m on a {}", self.wall()),
             all => format!("spheres of {} m", all.join(" and ")),
         };
-        // If a loss is not known, the fit is valid but the restitution is not.
-        let e = if self.unknown_loss.is_empty() { "e" } else { "the fit" };
+        // The fit of a bound is valid, but the restitution is not.
+        let e = if self.bounds.is_empty() { "e" } else { "the fit" };
         let good = format!("good to {}", number(self.tolerance, 2));
         let range = if from == to {
             format!("{e} is {good} at {} alone", speed(from))
@@ -382,10 +392,9 @@ impl Export {
         } else {
             format!("{e} is nowhere {good}")
         };
-        let warning = match &self.unknown_loss[..] {
-            [] => String::new(),
-            materials => unknown_loss("e", materials),
-        };
+        let warnings = self.bounds.iter().map(|text| commented(&format!("WARNING: {text}")));
+        let own_notes = self.notes.iter().map(|text| commented(text));
+        let remarks: String = warnings.chain(own_notes).collect();
         let band = self.band.map_or(String::new(), |(confidence, half)| {
             format!(
                 "# e(v) is known to {} or better ({} % band, {BAND_FILE}).\n",
@@ -395,7 +404,7 @@ impl Export {
         });
         format!(
             "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
-             # (largest error {worst:.4}).\n{band}{warning}{notes}",
+             # (largest error {worst:.4}).\n{band}{remarks}{notes}",
             self.title,
             speed(self.speeds.0),
             speed(self.speeds.1)
@@ -433,13 +442,17 @@ impl Export {
     }
 }
 
-/// Returns a comment that the loss of some materials is missing in the restitutions named.
-fn unknown_loss(restitutions: &str, materials: &[String]) -> String {
-    let materials = materials.join(" and ").replace(char::is_control, " ");
-    format!(
-        "# WARNING: no loss of {materials} is known, and none is in {restitutions}.\n\
-         # It is too high there, by how much is not known: measure it, or give the material a relaxation.\n"
-    )
+/// Returns a text as comment lines.
+fn commented(text: &str) -> String {
+    let mut lines = vec!["#".to_string()];
+    for word in text.split(|c: char| c.is_whitespace() || c.is_control()) {
+        let is_full = lines.last().is_some_and(|line| line.len() + word.len() >= LONGEST_LINE);
+        if is_full {
+            lines.push("#".to_string());
+        }
+        lines.last_mut().into_iter().for_each(|line| *line += &format!(" {word}"));
+    }
+    lines.join("\n") + "\n"
 }
 
 /// Returns comment lines of C++ in place of those with a hash.
