@@ -40,6 +40,8 @@ pub struct RunState {
     fingerprint: u64,
     /// Radius of the candidate region of the model, m.
     candidate_radius: f64,
+    /// Whether the bodies met on a dent.
+    began_dented: bool,
 }
 
 impl RunState {
@@ -67,6 +69,7 @@ impl RunState {
             request: request.clone(),
             approach: *model.approach(),
             made_for: *model.approach(),
+            began_dented: false,
             fingerprint: fingerprint(model),
             candidate_radius: model.candidate_radius(),
         }
@@ -96,13 +99,14 @@ impl RunState {
             state.advance_stress(body, clock);
         }
         run.ledger.inherit(model, &run.state);
-        Self { made_for: before.made_for, ..run }
+        Self { made_for: before.made_for, began_dented: true, ..run }
     }
 
-    /// Returns whether the run has ended and left a body dented.
+    /// Returns whether the run has ended and left a body dented, by itself or by an earlier run.
     pub fn is_dented(&self) -> bool {
         let work = self.sampled.last.and_then(|row| row.energy(Account::PlasticWork));
-        self.ending == Some(Ending::Parted) && work.is_some_and(|work| work > 0.0)
+        let is_dented = self.began_dented || work.is_some_and(|work| work > 0.0);
+        self.ending == Some(Ending::Parted) && is_dented
     }
 
     /// Returns the approach for which the parts of the model were chosen; [`ExplicitBodies::approaching`] turns such a model

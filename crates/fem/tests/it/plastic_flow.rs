@@ -1,6 +1,7 @@
 //! Plastic flow of a body: when it is computed, what forces it, and what its plan expects.
 
 use fem::{Account, QuantityOfInterest};
+use fem_collision::Snapshot;
 
 use crate::scene::{
     DENTED_BALL, collision_of, decision_on, refused_of, resolved, simulation_of, summary_of,
@@ -278,6 +279,27 @@ fn a_ball_gains_no_energy_on_its_dent_in_a_plate() {
         }
         assert!(energy.plate_j.unwrap() > 0.0);
         assert!(energy.residual_relative.unwrap() < 1e-4);
+    }
+}
+
+/// A dent outlasts contacts that stay elastic, on a wall and on a plate whose loss makes each slower than the one before. The
+/// snapshots are those of one mesh.
+#[test]
+fn a_dent_outlasts_elastic_contacts() {
+    let plate = "body.0={ name = 'plate', plate.thickness = '8 mm', material = 'steel' }";
+    for (lower, least) in [("title='wall'", 0.99), (plate, 0.6)] {
+        let simulation =
+            simulation_of(DENTED_BALL, &[lower, "gravity.spot='same'", "stop.bounces=5"]);
+        let collision = simulation.run(&mut ());
+        let [_, second, later @ ..] = &collision.bounces[..] else { panic!("five bounces") };
+        assert!(second.restitution > least, "{lower}: {second:?}");
+        for bounce in later {
+            assert!(bounce.restitution > second.restitution - 0.02, "{lower}: {bounce:?}");
+        }
+        let nodes =
+            |snapshot: &Snapshot| snapshot.bodies.each_ref().map(|it| it.displacement.len());
+        let dent = collision.unloaded.as_ref().unwrap();
+        assert!(collision.snapshots.iter().all(|snapshot| nodes(snapshot) == nodes(dent)));
     }
 }
 

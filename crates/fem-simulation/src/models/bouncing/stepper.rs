@@ -116,7 +116,10 @@ impl BouncingStepper {
     }
 
     /// Takes the result of a contact and returns the speed (m/s) of the next landing, if there is one.
-    fn take(&mut self, collision: Collision) -> Option<f64> {
+    fn take(&mut self, mut collision: Collision) -> Option<f64> {
+        // A later contact may have another mesh than the files.
+        let meshes = self.ball.first.meshes();
+        collision.unloaded = collision.unloaded.filter(|dent| has_sizes(dent, meshes));
         let collision = match self.known.so_far.n_contacts() {
             0 => {
                 let (_, time, height) = self.ball.fall(&self.known.approach);
