@@ -60,6 +60,9 @@ pub struct PlateImpact<'a> {
     pub edge_return: f64,
     /// Deflection at the end of the contact over the thickness; 0 for a bonded plate and a half-space.
     pub deflection: f64,
+    /// Relative error of the mobility of a plate that relaxes within the contact: half of its growth from a quarter of the contact to
+    /// its end, and 0.3 of that before the middle, by 90 runs on plates of 2 to 6 mm beside explicit elements.
+    pub relaxation_error: f64,
     /// How the plate answers.
     pub regime: PlateRegime,
 }
@@ -73,7 +76,12 @@ impl<'a> PlateImpact<'a> {
         let material = left_at(whole, estimate.effective.after);
         let way = |speed: f64| speed * contact_time;
         let thicknesses = plate_wave_travel(hertz, &material, plate.thickness);
-        let mobility = plate_mobility(whole, plate.thickness);
+        let mobility_at = |time: f64| plate_mobility(&left_at(whole, time), plate.thickness);
+        let mobility = mobility_at(0.5 * contact_time);
+        let grows = |from: f64, to: f64| {
+            mobility_at(to * contact_time) / mobility_at(from * contact_time) - 1.0
+        };
+        let relaxation_error = 0.5 * grows(0.25, 1.0) + 0.3 * grows(0.0, 0.5);
         let lambda = plate_lambda(hertz, mobility);
         let is_thick = way(material.dilatational_wave_speed()) < 2.0 * plate.thickness;
         let regime = match thicknesses {
@@ -93,7 +101,16 @@ impl<'a> PlateImpact<'a> {
             PlateSupport::Free if !is_thick => mobility * impulse / plate.thickness,
             _ => 0.0,
         };
-        Some(Self { body, plate, lambda, thicknesses, edge_return, deflection, regime })
+        Some(Self {
+            body,
+            plate,
+            lambda,
+            thicknesses,
+            edge_return,
+            deflection,
+            relaxation_error,
+            regime,
+        })
     }
 
     /// Returns whether no wave returns within the contact from anywhere, so that the plate is a half-space.
@@ -119,17 +136,22 @@ fn plate_of(scene: &Scene) -> Option<(&Body, &Plate, &Material)> {
     Some((body, body.plate()?, body.material()?))
 }
 
-/// Returns the plate of a scene, if it has one that is free below.
+/// Returns the plate of a scene, if it has one that is free below, with the moduli that are left in the middle of Hertz' contact: the
+/// bending of a plate that relaxes creeps as the contact does.
 pub fn free_plate(scene: &Scene) -> Option<FreePlate> {
     let (_, plate, material) = plate_of(scene)?;
+    let hertz = || HertzImpact::new(&scene.pair().ok()?, scene.approach_speed()).ok();
     (plate.support == PlateSupport::Free).then(|| FreePlate {
-        material: material.clone(),
+        material: match material.relaxation().and_then(|_| hertz()) {
+            Some(hertz) => left_at(material, 0.5 * hertz.contact_time()),
+            None => material.clone(),
+        },
         thickness: plate.thickness,
         diameter: plate.diameter.unwrap_or(f64::INFINITY),
     })
 }
 
-/// Returns the mobility of the plate of a scene as a thin one with instantaneous moduli, m/(N s).
+/// Returns the mobility of the plate of a scene as a thin one, m/(N s).
 pub(crate) fn thin_plate_mobility(scene: &Scene) -> Option<f64> {
     free_plate(scene).map(|plate| plate.thin_mobility())
 }

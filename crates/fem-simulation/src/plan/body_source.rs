@@ -74,9 +74,9 @@ impl BodySource {
     /// A mesh that cannot be made.
     pub fn n_elements(&self) -> Result<usize, Rejection> {
         match self {
-            Self::Meshed { mesh, .. } => {
-                mesh.n_elements().map_err(|error| mesh_rejection(&error, 0, mesh.is_bonded()))
-            }
+            Self::Meshed { mesh, material } => mesh
+                .n_elements()
+                .map_err(|error| mesh_rejection(&error, 0, material, mesh.is_bonded())),
             Self::Rigid { .. } | Self::Wall => Ok(0),
         }
     }
@@ -89,8 +89,9 @@ impl BodySource {
         Ok(match self {
             Self::Meshed { mesh, material } => {
                 let is_bonded = mesh.is_bonded();
-                let mesh =
-                    mesh.build(side).map_err(|error| mesh_rejection(&error, side, is_bonded))?;
+                let mesh = mesh
+                    .build(side)
+                    .map_err(|error| mesh_rejection(&error, side, material, is_bonded))?;
                 let material = material.clone();
                 match mesh.is_half_space() {
                     true => BodyInput::HalfSpace { mesh, material },

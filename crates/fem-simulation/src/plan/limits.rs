@@ -67,9 +67,9 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
             let is_bonded = body.plate().is_some_and(|plate| plate.support == PlateSupport::Bonded);
             let n = n.map_err(|error| match error {
                 MeshError::TooLarge(_) => {
-                    blame_growth(scene, mesh_rejection(&error, side, is_bonded))
+                    blame_growth(scene, mesh_rejection(&error, side, material, is_bonded))
                 }
-                _ => mesh_rejection(&error, side, is_bonded),
+                _ => mesh_rejection(&error, side, material, is_bonded),
             })? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;

@@ -122,15 +122,21 @@ pub(crate) fn graded_plate(
 }
 
 /// Returns the rejection of a mesh of the lower (0) or upper (1) body that cannot be generated, with the key that causes it.
-/// `is_bonded` says whether it is a bonded plate.
-pub(crate) fn mesh_rejection(error: &MeshError, side: usize, is_bonded: bool) -> Rejection {
+/// A plate that is too thin needs another model, by its material and by whether it is bonded.
+pub(crate) fn mesh_rejection(
+    error: &MeshError,
+    side: usize,
+    material: &Material,
+    is_bonded: bool,
+) -> Rejection {
     let of_plate =
         |key: &str| Rejection::new(format!("body.{side}.plate.{key}"), error.to_string());
     let key = match error {
         MeshError::ThinPlate { .. } => {
-            return of_plate("thickness").with_help(match is_bonded {
-                true => "no model computes a thinner bonded plate; at a lower speed or with a smaller body the contact is smaller",
-                false => "use model ting",
+            return of_plate("thickness").with_help(match (is_bonded, material.flow()) {
+                (true, _) => "no model computes a thinner bonded plate; at a lower speed or with a smaller body the contact is smaller",
+                (false, Some(_)) => "use law mean_pressure, which computes the flow of a body on a thin plate",
+                (false, None) => "use model ting",
             });
         }
         MeshError::NarrowPlate { radius, least } => {

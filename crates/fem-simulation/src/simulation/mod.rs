@@ -309,15 +309,15 @@ impl Simulation {
 
     /// Returns the effects that were on in a collision of the case's bodies, with reasons and warnings.
     pub fn decisions(&self, collision: &Collision) -> EffectDecisions {
-        let setup = self.setup();
+        let (setup, scene) = (self.setup(), self.scene_of_model());
         let estimate = self.estimate(collision);
         let anew = estimate.as_ref().filter(|_| collision.approach != setup.approach);
         let decided = anew.and_then(|estimate| {
             let support = |effect: &dyn Effect| self.model.support(effect, estimate);
-            decide(self.case.scene(), estimate, support).ok()
+            decide(&scene, estimate, support).ok()
         });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
-        decisions.update_from_result(self.case.scene(), estimate.as_ref(), collision);
+        decisions.update_from_result(&scene, estimate.as_ref(), collision);
         decisions
     }
 }

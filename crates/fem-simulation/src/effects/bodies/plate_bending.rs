@@ -216,7 +216,7 @@ impl Effect for PlateBending {
         if is_of_elements {
             return all.times(stretching);
         }
-        let share = plate_thickness_error(plate.thicknesses) + stretching;
+        let share = plate_thickness_error(plate.thicknesses) + stretching + plate.relaxation_error;
         QuantityErrors::from_fn(|quantity| {
             let slow = match quantity {
                 QuantityOfInterest::ContactTime => plate_slow_contact_error(plate.lambda),
