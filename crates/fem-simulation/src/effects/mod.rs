@@ -22,6 +22,7 @@ use fem_collision::Collision;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::estimate::plate_impact::PlateImpact;
 use crate::rejection::Rejection;
 
 pub use decision::neglect_error::{EffectStatus, NeglectError};
@@ -179,8 +180,11 @@ pub fn bounds_of_closed_forms(scene: &Scene, speed: f64) -> Vec<String> {
     }
     let flows = PlasticFlow::is_on(scene, &estimate)
         && PlasticFlow::of_elements(scene, &estimate) != Support::Lacks;
+    // Waves from the edge of a plate give energy back that closed forms leave out.
+    let returns = PlateImpact::of(scene, &estimate).is_some_and(|plate| plate.edge_return <= 1.0);
     let is_missing = |effect: &&&dyn Effect| match effect.name() {
         PlasticFlow::NAME => !flows && !is_law,
+        PlateBending::NAME => returns,
         AdhesionEffect::NAME => AdhesionEffect::given(scene).is_none(),
         _ if is_law => false,
         _ => effect.is_dissipative(),
