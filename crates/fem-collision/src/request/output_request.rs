@@ -1,5 +1,6 @@
 //! Output requests, and the expectation of a collision.
 
+use fem_material::engineering::number;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -44,10 +45,13 @@ pub enum OutputRequestError {
     #[error("{0} snapshots; at most {most} are allowed", most = OutputRequest::MAX_SNAPSHOTS)]
     Snapshots(usize),
     /// The time of a snapshot is negative or not finite.
-    #[error("a snapshot is at {0} s; the time must be finite and at least 0")]
+    #[error("a snapshot is at {} s; the time must be finite and at least 0", number(*.0, 5))]
     SnapshotTime(f64),
     /// The number of expected contact times is not positive.
-    #[error("the run would stop after {0} expected contact times; the number must be above 0")]
+    #[error(
+        "the run would stop after {} expected contact times; the number must be above 0",
+        number(*.0, 5)
+    )]
     GiveUpAfter(f64),
 }
 

@@ -9,6 +9,7 @@ use super::table::Table;
 use crate::fit::Point;
 use crate::sweep::COLUMNS;
 use fem_case::Scene;
+use fem_material::engineering::number;
 use fem_simulation::results::Status;
 
 /// Optional columns; a name that nearly equals one of them is an error.
@@ -225,13 +226,13 @@ impl Columns {
         }
         if speed <= 0.0 {
             return Err(table
-                .fault(row, format!("the approach speed is {speed:?} m/s"))
+                .fault(row, format!("the approach speed is {} m/s", number(speed, 5)))
                 .with_help("it must be greater than 0"));
         }
         let restitution = table.number(row, self.restitution, NUMBER)?;
         if !(0.0..=MAX_RESTITUTION).contains(&restitution) {
             return Err(table
-                .fault(row, format!("the restitution is {restitution:?}"))
+                .fault(row, format!("the restitution is {}", number(restitution, 5)))
                 .in_column(&table.header()[self.restitution])
                 .with_help(
                     "it must be from 0 to 1, or to 1.2 with scatter; name the column \
@@ -239,8 +240,10 @@ impl Columns {
                 ));
         }
         if self.status.is_some_and(|status| table.text(row, status) == Status::Bound.word()) {
-            let message =
-                format!("the restitution {restitution} is an upper bound, and no number for a law");
+            let message = format!(
+                "the restitution {} is an upper bound, and no number for a law",
+                number(restitution, 5)
+            );
             return Err(table.fault(row, message).in_column(STATUS).with_help(
                 "give the materials a relaxation or a strength and run the sweep again, name a measured value, or write \
                  --as-elastic",
