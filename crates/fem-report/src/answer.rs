@@ -1,7 +1,8 @@
-//! The answer of a stored summary for a quantity, as text: the number with its error bar, or the bound with its sign.
+//! The answer of a result for a quantity, as text: the number with its error bar, or the bound with its sign behind the measured
+//! value.
 
 use fem::results::{Parts, Status};
-use fem_case::engineering::Unit;
+use fem_case::engineering::{Unit, number, range};
 use fem_collision::QuantityOfInterest;
 use serde_json::Value;
 
@@ -26,25 +27,81 @@ pub fn error_scale(value: f64, quantity: QuantityOfInterest) -> f64 {
     if quantity == QuantityOfInterest::Restitution { 1.0 } else { value.abs() }
 }
 
+/// Returns the measured restitutions of the library at the speed of a summary, with their names.
+pub fn measured_restitutions(summary: &Value) -> Vec<(&str, f64)> {
+    let all = summary["measured_restitution"].as_array().into_iter().flatten();
+    all.filter_map(|it| Some((it["name"].as_str()?, it["restitution"].as_f64()?))).collect()
+}
+
+/// Returns where the restitution before a bound comes from, and the range of several measurements:
+/// `measured (bridges-1984; 0.12 to 0.32 in 2 measurements)`.
+pub fn measured_note(all: &[(&str, f64)]) -> Option<String> {
+    let (name, _) = all.first()?;
+    let values = || all.iter().map(|it| it.1);
+    let ends = [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)];
+    Some(match all.len() {
+        1 => format!("measured ({name})"),
+        n => format!("measured ({name}; {} in {n} measurements)", range(ends, "")),
+    })
+}
+
 /// Returns the answer of a summary in one cell ([`answer_text`]); `None` if there is none.
 pub fn answer(summary: &Value, quantity: QuantityOfInterest) -> Option<String> {
     let value = summary[quantity.key()].as_f64()?;
-    Some(answer_text(value, &error_parts(summary, quantity), quantity))
+    let measured = measured_restitutions(summary).first().map(|it| it.1);
+    Some(answer_text(value, &error_parts(summary, quantity), quantity, measured))
 }
 
-/// Returns a number with its error bar, `62.46 ± 0.21 µs`, a bound with its sign, `≤ 0.9999`, or `0.993 ± ?` where an effect of
-/// unknown size and side is missing.
-pub fn answer_text(value: f64, parts: &Parts, quantity: QuantityOfInterest) -> String {
+/// Returns the restitution of one contact of a bouncing ball.
+pub fn bounce_answer(
+    restitution: Option<f64>,
+    parts: &Parts,
+    measured: Option<f64>,
+) -> Option<String> {
+    let quantity = QuantityOfInterest::Restitution;
+    restitution.map(|value| answer_text(value, parts, quantity, measured))
+}
+
+/// Whether 1 − e is known: neglected effects change it by no more than its own size or the discretisation error. That of a bound
+/// is not.
+pub fn has_known_loss(restitution: f64, parts: &Parts) -> bool {
+    let known = (1.0 - restitution).abs().max(parts.discretisation.unwrap_or(0.0));
+    parts.model.is_some_and(|neglected| neglected <= known)
+}
+
+/// Returns the mark of a number, which is its status: `≤ 0.9999` of a bound, or `0.993 ± ?` where an error is not known. A bound of
+/// the restitution stands behind the measured one: `0.32 (≤ 1.0000)`.
+pub fn marked(
+    shown: &str,
+    parts: &Parts,
+    quantity: QuantityOfInterest,
+    measured: Option<f64>,
+) -> String {
+    let own = match (parts.bound, parts.sum()) {
+        (Some(side), _) => format!("{} {shown}", side.sign()),
+        (None, None) => format!("{shown} ± ?"),
+        (None, Some(_)) => shown.to_string(),
+    };
+    let leads = quantity == QuantityOfInterest::Restitution && parts.model.is_none();
+    match measured.filter(|_| leads) {
+        Some(measured) => format!("{} ({own})", number(measured, 2)),
+        None => own,
+    }
+}
+
+/// Returns a number with its error bar, `62.46 ± 0.21 µs`, or with its mark ([`marked`]).
+pub fn answer_text(
+    value: f64,
+    parts: &Parts,
+    quantity: QuantityOfInterest,
+    measured: Option<f64>,
+) -> String {
     let symbol = quantity.unit();
     let unit = (!symbol.is_empty()).then(|| Unit::fitting(value, symbol));
     let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
     let error = parts.sum().filter(|error| *error > VISIBLE * error_scale(value, quantity));
     let number = with_error(scaled(value), error.map(scaled));
-    let text = match (parts.bound, parts.sum()) {
-        (Some(side), _) => format!("{} {number}", side.sign()),
-        (None, None) => format!("{number} ± ?"),
-        (None, Some(_)) => number,
-    };
+    let text = marked(&number, parts, quantity, measured);
     unit.map_or(text.clone(), |unit| format!("{text} {}", unit.symbol()))
 }
 
@@ -69,5 +126,25 @@ mod tests {
         let exact = json!({ "discretisation": 0.0, "model": 0.0 });
         assert_eq!(of(number(exact)), text("62.46 µs"));
         assert_eq!(of(json!({ "contact_time_s": null })), None);
+    }
+
+    /// The first measurement leads, but not where the number is computed.
+    #[test]
+    fn a_measured_restitution_stands_before_a_bound() {
+        let of = |model: Value, bound: Value| {
+            let parts = json!({ "discretisation": 1e-3, "model": model, "bound": bound });
+            let measured = json!([{ "name": "no-speed", "restitution": null },
+                { "name": "a", "restitution": 0.3213 }, { "name": "b", "restitution": 0.45 }]);
+            let summary = json!({ "restitution": 0.99, "uncertainty": { "restitution": parts },
+                "measured_restitution": measured });
+            let note = measured_note(&measured_restitutions(&summary)).unwrap();
+            assert_eq!(note, "measured (a; 0.32 to 0.45 in 2 measurements)");
+            answer(&summary, QuantityOfInterest::Restitution).unwrap()
+        };
+        assert_eq!(of(Value::Null, "at most".into()), "0.32 (≤ 0.9900)");
+        assert_eq!(of(Value::Null, Value::Null), "0.32 (0.9900 ± ?)");
+        assert_eq!(of(1e-3.into(), Value::Null), "0.9900 ± 0.0020");
+        assert_eq!(measured_note(&[("a", 0.3)]).unwrap(), "measured (a)");
+        assert_eq!(measured_note(&[]), None);
     }
 }

@@ -13,7 +13,7 @@ use super::pressure_chart::pressure_chart;
 use super::shared_error::SharedErrors;
 use super::stored_result::{ReportError, StoredResult};
 use super::{FilmFrame, cards, citation, drawn, film};
-use crate::answer::{answer_text, error_scale};
+use crate::answer::{answer, error_scale};
 
 /// Tables of the case that describe the scene; all others say how it is computed and what is kept.
 const SCENE_TABLES: [&str; 6] = ["material", "body", "start", "model", "gravity", "stop"];
@@ -129,14 +129,12 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
         let (value, difference) = match of(result) {
             None => ("\u{2013}".to_string(), String::new()),
             Some(own) => {
-                let from = first.filter(|_| k > 0);
-                (
-                    answer_text(own.0, &own.1, quantity),
-                    from.map_or(String::new(), |from| {
-                        let shared = SharedErrors::of(result, &results[0]);
-                        difference_text(own, from, quantity, shared)
-                    }),
-                )
+                let difference = first.filter(|_| k > 0).map(|from| {
+                    let shared = SharedErrors::of(result, &results[0]);
+                    difference_text(own, from, quantity, shared)
+                });
+                let value = answer(&result.summary, quantity).unwrap_or_default();
+                (value, difference.unwrap_or_default())
             }
         };
         Cell { value, difference }

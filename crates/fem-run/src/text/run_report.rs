@@ -11,7 +11,7 @@ use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::ToleranceValue;
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
-use fem_report::answer::answer_text;
+use fem_report::answer::{bounce_answer, has_known_loss, marked, measured_note};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -197,12 +197,11 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     let own = own_error(summary);
     let is_uncertain =
         |it: QuantityOfInterest| summary.uncertainty.of(it).input.is_some_and(|input| input > 0.0);
-    let measured = summary.measured_restitution.iter().flatten();
-    let measured = measured.filter_map(|it| Some((it.name, it.restitution?))).next();
+    let measured = summary.measured_restitutions();
     // Seven columns are too wide for 80 characters.
     let has_input = QuantityOfInterest::ALL.into_iter().any(is_uncertain);
-    let has_measured = measured.is_some()
-        && summary.uncertainty.of(QuantityOfInterest::Restitution).bound.is_some();
+    let has_measured = !measured.is_empty()
+        && summary.uncertainty.of(QuantityOfInterest::Restitution).model.is_none();
     let row = |quantity: QuantityOfInterest| {
         let (value, theirs) = (ours.number(quantity), hertz.number(quantity));
         let has_unit = quantity != QuantityOfInterest::Restitution;
@@ -216,14 +215,12 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         let parts = summary.uncertainty.of(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
         let [mesh, neglected, input] = errors.unwrap_or([NONE; 3].map(String::from));
-        let own = match parts.bound {
-            Some(side) => format!("{} {}", side.sign(), shown(value)),
-            None => shown(value),
-        };
-        let own = match measured.filter(|_| !has_unit && has_measured) {
-            Some((_, measured)) => format!("{} ({own})", number(measured, 2)),
-            None => own,
-        };
+        let own = value.map_or(NONE.into(), |_| {
+            let text = shown(value);
+            let (number, symbol) = text.split_once(' ').unwrap_or((&text, ""));
+            let own = marked(number, &parts, quantity, measured.first().map(|it| it.1));
+            format!("{own} {symbol}").trim_end().to_string()
+        });
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         let name = quantity.name().to_string();
         let mut cells = vec![name, own, mesh, neglected];
@@ -242,8 +239,8 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     let header = format!("|>this run|>{own}|>± neglected|{last}");
     let table = headed(&header, QuantityOfInterest::ALL.map(row));
     let mut legend = error_legend(own, &table);
-    if let (Some((name, _)), true) = (measured, has_measured) {
-        legend += &format!("; restitution: measured ({name})");
+    if let Some(note) = measured_note(&measured).filter(|_| has_measured) {
+        legend += &format!("; restitution: {note}");
     }
     let between = if detail == Detail::All { "\n" } else { "" };
     format!("{table}{between}{legend}\n")
@@ -280,24 +277,19 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
         Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
         None => number(size, 2),
     };
-    let neglected = match (parts.model, parts.bound) {
-        (Some(size), _) => sized(size),
-        (None, Some(_)) => NONE.to_string(),
-        (None, None) => UNKNOWN.to_string(),
-    };
-    let input = parts.input.map_or("0".to_string(), sized);
-    [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected, input]
+    let known = |size: Option<f64>| size.map_or(UNKNOWN.to_string(), sized);
+    [known(parts.discretisation), known(parts.model), parts.input.map_or("0".to_string(), sized)]
 }
 
 /// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows, and what it holds: the
 /// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error. There is none where
 /// neglected effects may change it by more than this or by an unknown amount.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
-    let deficit = 1.0 - summary.collision.restitution?;
+    let restitution = summary.collision.restitution?;
+    let deficit = 1.0 - restitution;
     let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);
     let bar = parts.discretisation;
-    let known = deficit.abs().max(bar.unwrap_or(0.0));
-    if deficit.abs() >= NEARLY_ELASTIC || parts.model.is_none_or(|neglected| neglected > known) {
+    if deficit.abs() >= NEARLY_ELASTIC || !has_known_loss(restitution, &parts) {
         return None;
     }
     let shown = with_known_digits(deficit, bar);
@@ -328,14 +320,10 @@ fn with_known_digits(value: f64, error: Option<f64>) -> String {
     number(value, digits.clamp(1.0, 3.0) as usize)
 }
 
-/// Returns the restitution of a contact of a bouncing ball, with its error bar if it has one.
+/// Returns the restitution of a contact of a bouncing ball with its error bar.
 fn restitution_of_bounce(bounce: &BounceSummary) -> String {
-    let parts = &bounce.restitution_uncertainty;
-    match bounce.restitution {
-        None => NONE.to_string(),
-        Some(value) if *parts == Parts::default() => format!("{value:.4}"),
-        Some(value) => answer_text(value, parts, QuantityOfInterest::Restitution),
-    }
+    let BounceSummary { restitution, restitution_uncertainty: parts, .. } = bounce;
+    bounce_answer(*restitution, parts, bounce.measured_restitution).unwrap_or(NONE.to_string())
 }
 
 /// Returns one line per contact of a bouncing ball, and the contact at rest.
@@ -550,7 +538,7 @@ mod tests {
             error_columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
         };
         assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs", "0"]);
-        assert_eq!(of(Some(1e-17), None, Some(Side::AtLeast)), ["0", "-", "0"]);
+        assert_eq!(of(Some(1e-17), None, Some(Side::AtLeast)), ["0", "?", "0"]);
         assert_eq!(of(None, None, None), ["?", "?", "0"]);
         let plain = Parts {
             discretisation: Some(1.94e-4),

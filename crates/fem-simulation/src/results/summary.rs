@@ -94,6 +94,14 @@ pub struct Summary {
     pub case: CaseFile,
 }
 
+impl Summary {
+    /// Returns the measured restitutions of the library at the speed of the run, with their names.
+    pub fn measured_restitutions(&self) -> Vec<(&str, f64)> {
+        let all = self.measured_restitution.iter().flatten();
+        all.filter_map(|it| Some((it.name, it.restitution?))).collect()
+    }
+}
+
 /// An effect: whether the run had it, why, and the error of neglecting it.
 #[derive(Clone, Debug, Serialize)]
 pub struct EffectSummary {
@@ -273,6 +281,8 @@ pub struct BounceSummary {
     pub restitution: Option<f64>,
     /// Parts of its error bar.
     pub restitution_uncertainty: Parts,
+    /// Measured restitution of the library at this speed, if it has one.
+    pub measured_restitution: Option<f64>,
     /// Time from the first to the last contact.
     pub contact_time_s: Option<f64>,
     /// Largest contact force.
