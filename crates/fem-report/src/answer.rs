@@ -62,6 +62,14 @@ pub fn bounce_answer(
     restitution.map(|value| answer_text(value, parts, quantity, measured))
 }
 
+/// Returns the energy of relative motion, ½ m* v² of the effective mass and the approach speed, J: what a collision can lose, in any
+/// frame. Bodies are given by mass, `None` of an infinite one, and velocity; without a relative motion there is none.
+pub fn relative_motion_energy(bodies: [(Option<f64>, f64); 2]) -> Option<f64> {
+    let mobility: f64 = bodies.iter().filter_map(|(mass, _)| mass.map(f64::recip)).sum();
+    let speed = bodies[0].1 - bodies[1].1;
+    Some(0.5 * speed * speed / mobility).filter(|energy| *energy > 0.0 && energy.is_finite())
+}
+
 /// Whether 1 − e is known: neglected effects change it by no more than its own size or the discretisation error. That of a bound
 /// is not.
 pub fn has_known_loss(restitution: f64, parts: &Parts) -> bool {
@@ -126,6 +134,19 @@ mod tests {
         let exact = json!({ "discretisation": 0.0, "model": 0.0 });
         assert_eq!(of(number(exact)), text("62.46 µs"));
         assert_eq!(of(json!({ "contact_time_s": null })), None);
+    }
+
+    /// A body that meets an equal one at rest has half of its energy to lose; beside a wall of any speed it has all.
+    #[test]
+    fn only_relative_motion_can_be_lost() {
+        let of = |mass, velocities: [f64; 2]| {
+            relative_motion_energy([(mass, velocities[0]), (Some(2.0), velocities[1])])
+        };
+        assert_eq!(of(Some(2.0), [3.0, 0.0]), Some(4.5));
+        for velocities in [[3.0, 0.0], [0.0, -3.0], [10.0, 7.0]] {
+            assert_eq!(of(None, velocities), Some(9.0));
+        }
+        assert_eq!(of(None, [1.0, 1.0]), None);
     }
 
     /// The first measurement leads, but not where the number is computed.

@@ -11,7 +11,9 @@ use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::ToleranceValue;
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
-use fem_report::answer::{bounce_answer, has_known_loss, marked, measured_note};
+use fem_report::answer::{
+    bounce_answer, has_known_loss, marked, measured_note, relative_motion_energy,
+};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -133,8 +135,7 @@ fn flow<'a>(
     let mut rows: Vec<_> = dents.map(dent).collect();
     let energy = &summary.energy;
     let shares = [energy.get(Account::PlasticWork), energy.locked_in_j].map(|part| {
-        let share = part.zip(energy.initial_j).map(|(part, initial)| 100.0 * part / initial);
-        share.map_or_else(unknown, |share| number(share, 2))
+        share_of_energy(summary, part).map_or_else(unknown, |share| number(100.0 * share, 2))
     });
     // Dents beside each other hold more residual stress than that of the first one.
     let is_fresh = summary.bounces.as_ref().is_some_and(|bounces| bounces.len() > 1)
@@ -146,6 +147,13 @@ fn flow<'a>(
         rows.push(("energy", text));
     }
     rows
+}
+
+/// Returns an energy as a share of the energy of relative motion.
+fn share_of_energy(summary: &Summary, part: Option<f64>) -> Option<f64> {
+    let [lower, upper] = &summary.bodies[..] else { return None };
+    let all = [lower, upper].map(|it| (it.mass_kg, it.velocity_before_m_s.unwrap_or(0.0)));
+    Some(part? / relative_motion_energy(all)?)
 }
 
 /// Returns the tolerance of the case as text: `the tolerance of 1 %`, or that it has several.
@@ -300,8 +308,7 @@ fn elastic_deficit(summary: &Summary) -> Option<String> {
         .map(|it| it.vibration_energy_j)
         .sum();
     // Bodies that lose the share s of the energy keep √(1 − s) of the speed.
-    let by_vibrations =
-        kept.zip(summary.energy.initial_j).map(|(kept, initial)| 0.5 * kept / initial);
+    let by_vibrations = share_of_energy(summary, kept).map(|share| 0.5 * share);
     Some(match by_vibrations {
         Some(lost) if deficit > bar.unwrap_or(0.0) && lost > 0.0 => {
             format!("{shown}, of which {} in vibrations of the bodies", number(lost, 1))
