@@ -2,7 +2,7 @@
 //! value.
 
 use fem::results::{Parts, Status};
-use fem_case::engineering::{Unit, number, range};
+use fem_case::engineering::{Unit, number};
 use fem_collision::QuantityOfInterest;
 use serde_json::Value;
 
@@ -33,16 +33,9 @@ pub fn measured_restitutions(summary: &Value) -> Vec<(&str, f64)> {
     all.filter_map(|it| Some((it["name"].as_str()?, it["restitution"].as_f64()?))).collect()
 }
 
-/// Returns where the restitution before a bound comes from, and the range of several measurements:
-/// `measured (bridges-1984; 0.12 to 0.32 in 2 measurements)`.
+/// Returns where the restitution before a bound comes from: `measured (bridges-1984)`.
 pub fn measured_note(all: &[(&str, f64)]) -> Option<String> {
-    let (name, _) = all.first()?;
-    let values = || all.iter().map(|it| it.1);
-    let ends = [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)];
-    Some(match all.len() {
-        1 => format!("measured ({name})"),
-        n => format!("measured ({name}; {} in {n} measurements)", range(ends, "")),
-    })
+    all.first().map(|(name, _)| format!("measured ({name})"))
 }
 
 /// Returns the answer of a summary in one cell ([`answer_text`]); `None` if there is none.
@@ -159,13 +152,12 @@ mod tests {
             let summary = json!({ "restitution": 0.99, "uncertainty": { "restitution": parts },
                 "measured_restitution": measured });
             let note = measured_note(&measured_restitutions(&summary)).unwrap();
-            assert_eq!(note, "measured (a; 0.32 to 0.45 in 2 measurements)");
+            assert_eq!(note, "measured (a)");
             answer(&summary, QuantityOfInterest::Restitution).unwrap()
         };
         assert_eq!(of(Value::Null, "at most".into()), "0.32 (≤ 0.9900)");
         assert_eq!(of(Value::Null, Value::Null), "0.32 (0.9900 ± ?)");
         assert_eq!(of(1e-3.into(), Value::Null), "0.9900 ± 0.0020");
-        assert_eq!(measured_note(&[("a", 0.3)]).unwrap(), "measured (a)");
         assert_eq!(measured_note(&[]), None);
     }
 }

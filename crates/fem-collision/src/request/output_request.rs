@@ -151,7 +151,7 @@ mod tests {
             let request = SnapshotRequest::Times(vec![0.0, 1e-6, wrong]);
             let error = snapshots(request).check().unwrap_err();
             assert!(matches!(error, OutputRequestError::SnapshotTime(_)), "{error:?}");
-            assert!(error.to_string().contains(&wrong.to_string()), "{error}");
+            assert!(error.to_string().contains(&number(wrong, 5)), "{error}");
         }
         for wrong in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
             let error = OutputRequest { max_contact_times: wrong, ..OutputRequest::history() }

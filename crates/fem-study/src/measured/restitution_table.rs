@@ -52,7 +52,7 @@ impl Restitutions {
     ///
     /// let table = Table::parse("ice.csv", "speed_cm_s,e\n5,60\n")?;
     /// let error = Restitutions::read(&table, case.scene()).unwrap_err();
-    /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60.0");
+    /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
