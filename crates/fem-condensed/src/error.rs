@@ -2,7 +2,7 @@
 
 use fem_collision::{ApproachError, Stop};
 use fem_contact::ContactError;
-use fem_material::engineering::show;
+use fem_material::engineering::{number, show};
 use thiserror::Error;
 
 /// Errors of condensed pairs, and the limits of the model.
@@ -12,7 +12,7 @@ pub enum CondensedError {
     #[error(transparent)]
     Contact(#[from] ContactError),
     /// A setting lies outside of its range.
-    #[error("{name} is {value}; allowed is {allowed}")]
+    #[error("{name} is {value}; allowed is {allowed}", value = number(*value, 5))]
     Setting {
         /// Name of the setting.
         name: &'static str,

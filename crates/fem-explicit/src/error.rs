@@ -2,6 +2,7 @@
 
 use fem_collision::ApproachError;
 use fem_contact::ContactError;
+use fem_material::engineering::number;
 use thiserror::Error;
 
 /// Reasons for which a model cannot be built or a run cannot be resumed.
@@ -14,7 +15,7 @@ pub enum ModelError {
     #[error(transparent)]
     Approach(#[from] ApproachError),
     /// A setting lies outside of its range.
-    #[error("{name} is {value}; allowed is {allowed}")]
+    #[error("{name} is {value}; allowed is {allowed}", value = number(*value, 5))]
     Setting {
         /// Name of the setting.
         name: &'static str,
@@ -27,8 +28,7 @@ pub enum ModelError {
     /// large.
     #[error(
         "explicit elements would need a time step of {time_step} s: the time in which a wave crosses the \
-         smallest element is beyond the range of numbers"
-    )]
+         smallest element is beyond the range of numbers", time_step = number(*time_step, 5))]
     NoStep {
         /// The time step that would follow, s.
         time_step: f64,

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LawError {
     /// A quantity that must be positive and finite is not.
-    #[error("{quantity} must be positive and finite, found {value:?}")]
+    #[error("{quantity} must be positive and finite, found {value}", value = number(*value, 5))]
     NotPositive {
         /// Name of the quantity.
         quantity: &'static str,
@@ -32,7 +32,7 @@ pub enum LawError {
     NothingMoves,
 
     /// A quantity that must be at least 0 and finite is not.
-    #[error("{quantity} must be at least 0 and finite, found {value:?}")]
+    #[error("{quantity} must be at least 0 and finite, found {value}", value = number(*value, 5))]
     Negative {
         /// Name of the quantity.
         quantity: &'static str,
@@ -41,7 +41,7 @@ pub enum LawError {
     },
 
     /// A value is outside its valid range.
-    #[error("{quantity} must be in {range}, found {value:?}")]
+    #[error("{quantity} must be in {range}, found {value}", value = number(*value, 5))]
     OutOfRange {
         /// Name of the quantity.
         quantity: &'static str,
@@ -52,7 +52,10 @@ pub enum LawError {
     },
 
     /// A model is used outside its validity.
-    #[error("{quantity} must be at most {limit}, found {}: outside the validity of the model", number(*value, 4))]
+    #[error(
+        "{quantity} must be at most {limit}, found {}: outside the validity of the model",
+        number(*value, 4), limit = number(*limit, 5)
+    )]
     OutsideValidity {
         /// Name of the quantity.
         quantity: &'static str,
@@ -63,7 +66,10 @@ pub enum LawError {
     },
 
     /// The integration in time did not reach the end of contact.
-    #[error("{model}: no end of contact within {n_steps} steps; reached {time:?} s")]
+    #[error(
+        "{model}: no end of contact within {n_steps} steps; reached {time} s",
+        time = number(*time, 5)
+    )]
     NotFinished {
         /// Name of the model.
         model: &'static str,

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
     /// A length that must be positive and finite is not.
-    #[error("{name} is {value:?} m; it must be positive and finite")]
+    #[error("{name} is {value:?} m; it must be positive and finite", value = short(*value))]
     Length {
         /// Name of the length.
         name: &'static str,
@@ -16,7 +16,8 @@ pub enum MeshError {
     /// The elements at the contact are too large to describe the sphere.
     #[error(
         "contact element size {size:?} m is too large for a sphere of radius {radius:?} m; \
-         at most a quarter of the radius, {:?} m, is allowed", radius / 4.0
+         at most a quarter of the radius, {:?} m, is allowed",
+        short(radius / 4.0), radius = short(*radius), size = short(*size)
     )]
     ElementSize {
         /// Element size asked for, m.
@@ -27,7 +28,8 @@ pub enum MeshError {
     /// The uniformly fine block does not fit into the sphere.
     #[error(
         "refined radius {refined_radius:?} m is too large for a sphere of radius {radius:?} m; \
-         at most that radius is allowed"
+         at most that radius is allowed",
+        refined_radius = short(*refined_radius), radius = short(*radius)
     )]
     RefinedRadius {
         /// Half-width of the fine block, m.
@@ -37,8 +39,9 @@ pub enum MeshError {
     },
     /// The far boundary of a half-space is too near.
     #[error(
-        "far radius {} is too small for a refined radius of {}; at least twice that, {}, is needed",
-        mm(*far_radius), mm(*refined_radius), mm(2.0 * refined_radius)
+        "far radius {far_radius:?} m is too small for a refined radius of {refined_radius:?} m; at least \
+         twice that, {:?} m, is needed",
+        short(2.0 * refined_radius), refined_radius = short(*refined_radius), far_radius = short(*far_radius)
     )]
     FarRadius {
         /// Distance of the far boundary, m.
@@ -48,7 +51,8 @@ pub enum MeshError {
     },
     /// The uniformly fine block does not fit into the plate.
     #[error(
-        "a plate of thickness {} is too thin for its contact; at least {} is needed", mm(*thickness), mm(*least)
+        "a plate of thickness {thickness:?} m is too thin for its contact; at least {least:?} m is needed",
+        thickness = short(*thickness), least = short(*least)
     )]
     ThinPlate {
         /// Thickness of the plate, m.
@@ -58,7 +62,8 @@ pub enum MeshError {
     },
     /// The rim of the plate is too near.
     #[error(
-        "a plate of radius {} is too narrow for its thickness; at least {} is needed", mm(*radius), mm(*least)
+        "a plate of radius {radius:?} m is too narrow for its thickness; at least {least:?} m is needed",
+        radius = short(*radius), least = short(*least)
     )]
     NarrowPlate {
         /// Radius of the plate, m.
@@ -67,7 +72,7 @@ pub enum MeshError {
         least: f64,
     },
     /// Successive rings cannot grow by this factor.
-    #[error("growth {0} is not allowed; it must lie above 1 and not above 2")]
+    #[error("growth {} is not allowed; it must lie above 1 and not above 2", short(*.0))]
     Growth(f64),
     /// The mesh would have more nodes than indices.
     #[error("the mesh would have {0:.1e} elements; at most {max} can be numbered", max = u32::MAX / 2)]
@@ -77,9 +82,7 @@ pub enum MeshError {
     Import(String),
 }
 
-/// Returns a length (m) in millimetres with four digits.
-fn mm(length: f64) -> String {
-    let length = 1e3 * length;
-    let digits = (3.0 - length.abs().log10().floor()).clamp(0.0, 12.0) as usize;
-    format!("{length:.digits$} mm")
+/// Rounds a number of a message to five digits.
+fn short(number: f64) -> f64 {
+    format!("{number:.4e}").parse().unwrap_or(number)
 }

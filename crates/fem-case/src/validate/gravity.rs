@@ -1,6 +1,7 @@
 //! `[gravity]` and `[stop]`: the weight of the upper sphere, its support, and the number of bounces.
 
 use super::Check;
+use crate::engineering::show;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::scene::body::{Body, Shape};
@@ -85,8 +86,9 @@ impl Check<'_> {
         let impact_speed = impact_speed(upper.velocity, acceleration, gap);
         if !(impact_speed > 0.0 && impact_speed.is_finite()) {
             let message = format!(
-                "\"{}\" would never reach its support (impact speed {impact_speed:?} m/s)",
-                upper.name
+                "\"{}\" would never reach its support (impact speed {})",
+                upper.name,
+                show(impact_speed, "m/s")
             );
             let given = ["body.1.approach_speed", "start.gap"];
             let path = given.into_iter().find(|path| self.document.has(path)).unwrap_or("gravity");

@@ -1,6 +1,7 @@
 //! `[output]`: the instants at which fields are written, and the positions of probes.
 
 use super::Check;
+use crate::engineering::show;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Count, Quantity};
@@ -110,7 +111,10 @@ impl Check<'_> {
         }
         if radius.is_finite() && r.hypot(depth - radius) > radius * (1.0 + ROUNDING) {
             let message = format!("({}, {}) is outside of \"{name}\"", table.r, table.y);
-            let help = format!("\"{name}\" has a radius of {radius} m and touches y = 0 at r = 0");
+            let help = format!(
+                "\"{name}\" has a radius of {} and touches y = 0 at r = 0",
+                show(radius, "m")
+            );
             return Err(self.conflict(&of_r, &[&of_y], message).with_help(help));
         }
         Ok(Probe { body: side, r, y })

@@ -1,5 +1,6 @@
 //! Initial velocities and distance of two bodies.
 
+use fem_material::engineering::number;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -24,10 +25,13 @@ pub struct Approach {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum ApproachError {
     /// The relative velocity is not positive and finite.
-    #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
+    #[error(
+        "the bodies approach each other at {} m/s; it must be positive and finite",
+        number(*.0, 5)
+    )]
     NotApproaching(f64),
     /// The gap is negative or not finite.
-    #[error("gap is {0} m; it must be finite and at least 0")]
+    #[error("gap is {} m; it must be finite and at least 0", number(*.0, 5))]
     Gap(f64),
 }
 

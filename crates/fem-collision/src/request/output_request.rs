@@ -1,5 +1,6 @@
 //! Output requests, and the expectation of a collision.
 
+use fem_material::engineering::number;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -44,10 +45,13 @@ pub enum OutputRequestError {
     #[error("{0} snapshots; at most {most} are allowed", most = OutputRequest::MAX_SNAPSHOTS)]
     Snapshots(usize),
     /// The time of a snapshot is negative or not finite.
-    #[error("a snapshot is at {0} s; the time must be finite and at least 0")]
+    #[error("a snapshot is at {} s; the time must be finite and at least 0", number(*.0, 5))]
     SnapshotTime(f64),
     /// The number of expected contact times is not positive.
-    #[error("the run would stop after {0} expected contact times; the number must be above 0")]
+    #[error(
+        "the run would stop after {} expected contact times; the number must be above 0",
+        number(*.0, 5)
+    )]
     GiveUpAfter(f64),
 }
 
@@ -147,7 +151,7 @@ mod tests {
             let request = SnapshotRequest::Times(vec![0.0, 1e-6, wrong]);
             let error = snapshots(request).check().unwrap_err();
             assert!(matches!(error, OutputRequestError::SnapshotTime(_)), "{error:?}");
-            assert!(error.to_string().contains(&wrong.to_string()), "{error}");
+            assert!(error.to_string().contains(&number(wrong, 5)), "{error}");
         }
         for wrong in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
             let error = OutputRequest { max_contact_times: wrong, ..OutputRequest::history() }

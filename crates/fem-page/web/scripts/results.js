@@ -33,11 +33,15 @@ export function draw(place, svg, label) {
 
 const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
-// Shows a number with the sign of a bound.
+// Shows a number; a bound with its sign, or with ± ? if its side is not known, behind the measured restitution.
 function showOwn(summary, key, unit) {
-  const { bound } = summary.uncertainty[key];
-  const sign = { 'at most': '≤ ', 'at least': '≥ ' }[bound] ?? '';
-  return sign + show(summary[key], unit);
+  const { bound, model } = summary.uncertainty[key];
+  const own = show(summary[key], unit);
+  if (model !== null || summary[key] === null) return own;
+  const sign = { 'at most': '≤ ', 'at least': '≥ ' }[bound];
+  const marked = sign ? sign + own : own.replace(unit ? / (?=\S+$)/ : /$/, unit ? ' ± ? ' : ' ± ?');
+  const measured = key === 'restitution' && (summary.measured_restitution ?? []).find((it) => it.restitution !== null);
+  return measured ? `${show(measured.restitution, '', 2)} (${marked})` : marked;
 }
 
 export function headline(summary) {
@@ -51,12 +55,12 @@ export function showNumbers(summary) {
   const rows = QUANTITIES.map(([key, name, unit]) => {
     const [own, hertz] = [summary[key], summary.hertz[key]];
     const { discretisation, model, input } = summary.uncertainty[key];
-    const part = (size) => element('td', size === null ? '–' : showBeside(size, own, unit));
+    const part = (size, none = '–') => element('td', size === null ? none : showBeside(size, own, unit));
     const row = element('tr');
     const ratio = own === null || hertz === null ? '–' : (own / hertz).toFixed(4);
     const number = element('td', showOwn(summary, key, unit), { 'data-key': key });
     if (own !== null) number.dataset.value = own;
-    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), part(discretisation), part(model), part(input));
+    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), part(discretisation), part(model, own === null ? '–' : '?'), part(input));
     return row;
   });
   at('numbers').tBodies[0].replaceChildren(...rows);

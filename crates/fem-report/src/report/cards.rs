@@ -5,7 +5,7 @@ use fem_case::engineering::{Unit, show};
 use fem_collision::QuantityOfInterest;
 
 use super::stored_result::StoredResult;
-use crate::answer::{answer, error_scale};
+use crate::answer::{answer, error_scale, has_known_loss, measured_note, measured_restitutions};
 use crate::number_text::{power_of_ten, rounded};
 
 /// Relative errors below this are rounding.
@@ -40,9 +40,12 @@ fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
     if let Some(hertz) = hertz.filter(|_| quantity != QuantityOfInterest::Restitution) {
         notes.push(format!("Hertz {} (× {:.4})", show(hertz, quantity.unit()), value / hertz));
     }
-    let is_loss = quantity == QuantityOfInterest::Restitution && parts.model.is_some();
-    if is_loss && (1.0 - value).abs() < 0.1 && value != 1.0 {
-        notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
+    if quantity == QuantityOfInterest::Restitution {
+        if (1.0 - value).abs() < 0.1 && value != 1.0 && has_known_loss(value, &parts) {
+            notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
+        }
+        let measured = measured_restitutions(&result.summary);
+        notes.extend(measured_note(&measured).filter(|_| parts.model.is_none()));
     }
     let text = answer(&result.summary, quantity)?;
     let symbol = unit.as_ref().map_or("", Unit::symbol);
@@ -63,16 +66,11 @@ fn error_text(
 ) -> Option<String> {
     let part = |name: &str, size: Option<f64>| match size {
         Some(size) => (size > least).then(|| format!("{name} {}", shown(size))),
-        None => Some(format!("{name} not known")),
-    };
-    // The sign of a bound says what is not known.
-    let model = match parts.bound {
-        Some(_) => None,
-        None => part("neglected effects", parts.model),
+        None => Some(format!("{name} ?")),
     };
     let parts = [
         part(numerics, parts.discretisation),
-        model,
+        part("neglected effects", parts.model),
         parts.input.and_then(|size| part("inputs", Some(size))),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -108,9 +106,11 @@ mod tests {
         let text = |text: &str| Some(text.to_string());
         assert_eq!(of(Some(0.16), Some(0.5), None), text("± mesh 0.16 + neglected effects 0.5"));
         assert_eq!(of(Some(1e-12), Some(0.0), None), None);
-        assert_eq!(of(Some(1e-12), None, None), text("± neglected effects not known"));
-        assert_eq!(of(Some(0.16), None, Some(Side::AtMost)), text("± mesh 0.16"));
-        assert_eq!(of(None, Some(0.0), None), text("± mesh not known"));
+        for side in [None, Some(Side::AtMost)] {
+            assert_eq!(of(Some(1e-12), None, side), text("± neglected effects ?"));
+            assert_eq!(of(Some(0.16), None, side), text("± mesh 0.16 + neglected effects ?"));
+        }
+        assert_eq!(of(None, Some(0.0), None), text("± mesh ?"));
         let parts =
             Parts { discretisation: Some(0.16), model: Some(0.5), input: Some(0.3), bound: None };
         let with_inputs = text("± mesh 0.16 + neglected effects 0.5 + inputs 0.3");

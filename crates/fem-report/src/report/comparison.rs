@@ -1,7 +1,7 @@
 //! The comparison of several results on one page.
 
 use askama::Template;
-use fem::results::Parts;
+use fem::results::{Parts, Status};
 use fem_collision::QuantityOfInterest;
 use fem_figure::contour::Contour;
 use serde_json::Value;
@@ -129,14 +129,12 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
         let (value, difference) = match of(result) {
             None => ("\u{2013}".to_string(), String::new()),
             Some(own) => {
-                let from = first.filter(|_| k > 0);
-                (
-                    answer(&result.summary, quantity).unwrap_or_default(),
-                    from.map_or(String::new(), |from| {
-                        let shared = SharedErrors::of(result, &results[0]);
-                        difference_text(own, from, quantity, shared)
-                    }),
-                )
+                let difference = first.filter(|_| k > 0).map(|from| {
+                    let shared = SharedErrors::of(result, &results[0]);
+                    difference_text(own, from, quantity, shared)
+                });
+                let value = answer(&result.summary, quantity).unwrap_or_default();
+                (value, difference.unwrap_or_default())
             }
         };
         Cell { value, difference }
@@ -153,20 +151,20 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
 
 /// Returns the difference from the first result, absolute for the restitution and relative for all others,
 /// and whether it is within the error bars, as far as the results do not share them. Bars above half of a value judge no
-/// difference, and bounds have none unless the same effects are missing from both.
+/// difference, and a bound has none.
 fn difference_text(
     own: (f64, Parts),
     from: (f64, Parts),
     quantity: QuantityOfInterest,
     shared: SharedErrors,
 ) -> String {
+    let is_computed = |it: &(f64, Parts)| Status::of(Some(it.0), &it.1) == Status::Computed;
+    if !(is_computed(&own) && is_computed(&from)) {
+        return "\u{2013}".to_string();
+    }
     let difference = own.0 - from.0;
     if difference == 0.0 {
         return "the same".to_string();
-    }
-    let is_open = |of: &(f64, Parts)| of.1.model.is_none();
-    if !shared.model && (is_open(&own) || is_open(&from)) {
-        return "\u{2013}".to_string();
     }
     let size = match quantity {
         QuantityOfInterest::Restitution => format!("{difference:+.5}"),
@@ -212,7 +210,7 @@ fn shared_text(results: &[StoredResult]) -> String {
 mod tests {
     use super::*;
 
-    /// A bound is not compared with a difference, and neither is a value that is hardly known.
+    /// A bound has no difference from a number nor from a bound, and a value that is hardly known judges none.
     #[test]
     fn bounds_and_wide_bars_judge_no_difference() {
         let parts = |discretisation, model| Parts {
@@ -220,13 +218,16 @@ mod tests {
             model,
             ..Parts::default()
         };
-        let apart = |parts| {
-            let (own, from) = ((45e-6, parts), (46e-6, parts));
+        let apart = |own, from| {
             let shared = SharedErrors::default();
-            difference_text(own, from, QuantityOfInterest::ContactTime, shared)
+            difference_text((45e-6, own), (46e-6, from), QuantityOfInterest::ContactTime, shared)
         };
-        assert!(apart(parts(1e-6, Some(0.0))).contains("within the error bars"));
-        assert!(!apart(parts(1e-6, None)).contains("error bars"));
-        assert!(apart(parts(30e-6, Some(0.0))).contains("too wide"));
+        let (number, bound) = (parts(1e-6, Some(0.0)), parts(1e-6, None));
+        assert!(apart(number, number).contains("within the error bars"));
+        for (own, from) in [(number, bound), (bound, number), (bound, bound)] {
+            assert_eq!(apart(own, from), "\u{2013}");
+        }
+        let wide = parts(30e-6, Some(0.0));
+        assert!(apart(wide, wide).contains("too wide"));
     }
 }

@@ -1,11 +1,12 @@
 //! The dents of bodies that flowed: the displacement of the surface, the sizes, and the energy that they took.
 
-use fem::results::{DENT_FILE, energy_of_impact};
+use fem::results::DENT_FILE;
 use fem_case::engineering::{number, show};
 use fem_figure::{Chart, Curve};
 use serde_json::Value;
 
 use super::stored_result::{Columns, StoredResult};
+use crate::answer::relative_motion_energy;
 use crate::quantity_axis::{QuantityAxis, chart_axes};
 
 /// Returns a chart of each dent and a line of its sizes.
@@ -42,20 +43,23 @@ fn chart(dent: &Value, profiles: &Columns) -> Option<Chart> {
     Some(chart_axes(&x, &y).with(curve.like_curve(0)))
 }
 
-/// "Of the energy of the impact, 44 % …": where the energy went that the dents took.
+/// "Of the energy of relative motion, 44 % …": where the energy went that the dents took.
 pub fn energy_of_dents(result: &StoredResult) -> Option<String> {
     let number_of = |body: &Value, key: &str| body.get(key).and_then(Value::as_f64);
-    let bodies = result.list("bodies").iter();
-    let bodies: Vec<_> = bodies
-        .map(|body| (number_of(body, "mass_kg"), number_of(body, "velocity_before_m_s")))
-        .collect();
-    let share = |key: &str| {
-        let part = result.number(&["energy", key])?;
-        Some(number(100.0 * part / energy_of_impact(&bodies)?, 2))
+    let body = |it: &Value| {
+        (number_of(it, "mass_kg"), number_of(it, "velocity_before_m_s").unwrap_or(0.0))
     };
+    let [lower, upper] = result.list("bodies") else { return None };
+    let all = relative_motion_energy([body(lower), body(upper)])?;
+    let share = |key: &str| Some(number(100.0 * result.number(&["energy", key])? / all, 2));
+    // Dents beside each other hold more residual stress than that of the first one.
+    let is_fresh = result.summary["case"]["gravity"]["spot"] == "fresh";
+    if is_fresh && result.list("bounces").len() > 1 {
+        return None;
+    }
     let (plastic, locked_in) = (share("plastic_work_j")?, share("locked_in_j")?);
     Some(format!(
-        "Of the energy of the impact, {plastic} % became plastic work, and {locked_in} % is locked in by residual stress."
+        "Of the energy of relative motion, {plastic} % became plastic work, and {locked_in} % is locked in by residual stress."
     ))
 }
 

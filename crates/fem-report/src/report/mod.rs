@@ -24,6 +24,7 @@ use fem_figure::Chart;
 use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
+use crate::answer::bounce_answer;
 use crate::number_text::{elapsed, grouped, power_of_ten};
 use cards::Card;
 use effects::EffectEntry;
@@ -221,10 +222,13 @@ fn with_code(text: &str) -> String {
 fn bounce(bounce: &Value) -> [String; 5] {
     let number = |key: &str| bounce.get(key).and_then(Value::as_f64);
     let shown = |key: &str, unit: &str| number(key).map_or("\u{2013}".into(), |v| show(v, unit));
+    let parts = serde_json::from_value(bounce["restitution_uncertainty"].clone());
+    let (e, measured) = (number("restitution"), number("measured_restitution"));
+    let restitution = bounce_answer(e, &parts.unwrap_or_default(), measured);
     [
         shown("time_s", "s"),
         shown("speed_before_m_s", "m/s"),
-        number("restitution").map_or("\u{2013}".into(), |e| format!("{e:.4}")),
+        restitution.unwrap_or("\u{2013}".into()),
         shown("contact_time_s", "s"),
         shown("peak_force_n", "N"),
     ]

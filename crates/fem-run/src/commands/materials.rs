@@ -1,7 +1,7 @@
 //! `fem-run materials`: the library of materials, and one of them as a case has it.
 
 use fem_case::CaseFile;
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use fem_case::library::{Material, materials, nearest_to, table_text};
 use fem_case::schema::BodyTable;
 use fem_case::{Case, CaseError};
@@ -74,7 +74,7 @@ fn list() -> Result<String, CaseError> {
         let moduli = material.instantaneous();
         rows.push([
             name.clone(),
-            format!("{} kg/m^3", material.density()),
+            format!("{} kg/m^3", number(material.density(), 5)),
             show(moduli.youngs_modulus(), "Pa"),
             format!("{:.4}", moduli.poissons_ratio()),
             if material.relaxation().is_some() { "yes" } else { "no" }.to_string(),

@@ -117,6 +117,7 @@ fn legend(cells: &str) -> String {
         ("± ?", "unknown error"),
         ("≤", "upper bound, since a loss is unknown"),
         ("≥", "lower bound, since a loss is unknown"),
+        (" (", "measured value before a bound"),
     ];
     let bar = ("±", "discretisation error, neglected effects and uncertain inputs");
     let there = [bar].into_iter().chain(signs).filter(|(sign, _)| cells.contains(sign));

@@ -152,7 +152,8 @@ fn in_a_few_words(summary: &Summary) -> String {
     let answer = |quantity: QuantityOfInterest| {
         let number = summary.collision.number(quantity);
         let parts = summary.uncertainty.of(quantity);
-        number.map_or("-".to_string(), |number| answer_text(number, &parts, quantity))
+        let measured = summary.measured_restitutions().first().map(|it| it.1);
+        number.map_or("-".to_string(), |number| answer_text(number, &parts, quantity, measured))
     };
     format!(
         "restitution {}, contact time {}, {}",

@@ -5,15 +5,15 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::{EffectDecision, NeglectError};
-use fem::results::{
-    BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary, energy_of_impact,
-};
+use fem::results::{BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
 use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::ToleranceValue;
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
-use fem_report::answer::{answer_text, behind_measured};
+use fem_report::answer::{
+    bounce_answer, has_known_loss, marked, measured_note, relative_motion_energy,
+};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -134,11 +134,8 @@ fn flow<'a>(
     };
     let mut rows: Vec<_> = dents.map(dent).collect();
     let energy = &summary.energy;
-    let motions = summary.bodies.iter().map(|body| (body.mass_kg, body.velocity_before_m_s));
-    let of_impact = energy_of_impact(&motions.collect::<Vec<_>>());
     let shares = [energy.get(Account::PlasticWork), energy.locked_in_j].map(|part| {
-        let share = part.zip(of_impact).map(|(part, whole)| 100.0 * part / whole);
-        share.map_or_else(unknown, |share| number(share, 2))
+        share_of_energy(summary, part).map_or_else(unknown, |share| number(100.0 * share, 2))
     });
     // Dents beside each other hold more residual stress than that of the first one.
     let is_fresh = summary.bounces.as_ref().is_some_and(|bounces| bounces.len() > 1)
@@ -150,6 +147,13 @@ fn flow<'a>(
         rows.push(("energy", text));
     }
     rows
+}
+
+/// Returns an energy as a share of the energy of relative motion.
+fn share_of_energy(summary: &Summary, part: Option<f64>) -> Option<f64> {
+    let [lower, upper] = &summary.bodies[..] else { return None };
+    let all = [lower, upper].map(|it| (it.mass_kg, it.velocity_before_m_s.unwrap_or(0.0)));
+    Some(part? / relative_motion_energy(all)?)
 }
 
 /// Returns the tolerance of the case as text: `the tolerance of 1 %`, or that it has several.
@@ -201,12 +205,11 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     let own = own_error(summary);
     let is_uncertain =
         |it: QuantityOfInterest| summary.uncertainty.of(it).input.is_some_and(|input| input > 0.0);
-    let measured = summary.measured_restitution.iter().flatten();
-    let measured = measured.filter_map(|it| Some((it.name, it.restitution?))).next();
+    let measured = summary.measured_restitutions();
     // Seven columns are too wide for 80 characters.
     let has_input = QuantityOfInterest::ALL.into_iter().any(is_uncertain);
-    let has_measured = measured.is_some()
-        && summary.uncertainty.of(QuantityOfInterest::Restitution).bound.is_some();
+    let has_measured = !measured.is_empty()
+        && summary.uncertainty.of(QuantityOfInterest::Restitution).model.is_none();
     let row = |quantity: QuantityOfInterest| {
         let (value, theirs) = (ours.number(quantity), hertz.number(quantity));
         let has_unit = quantity != QuantityOfInterest::Restitution;
@@ -220,11 +223,12 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         let parts = summary.uncertainty.of(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
         let [mesh, neglected, input] = errors.unwrap_or([NONE; 3].map(String::from));
-        let own = match parts.bound {
-            Some(side) => format!("{} {}", side.sign(), shown(value)),
-            None => shown(value),
-        };
-        let own = behind_measured(own, &parts, quantity, measured.map(|(_, value)| value));
+        let own = value.map_or(NONE.into(), |_| {
+            let text = shown(value);
+            let (number, symbol) = text.split_once(' ').unwrap_or((&text, ""));
+            let own = marked(number, &parts, quantity, measured.first().map(|it| it.1));
+            format!("{own} {symbol}").trim_end().to_string()
+        });
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         let name = quantity.name().to_string();
         let mut cells = vec![name, own, mesh, neglected];
@@ -243,8 +247,8 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     let header = format!("|>this run|>{own}|>± neglected|{last}");
     let table = headed(&header, QuantityOfInterest::ALL.map(row));
     let mut legend = error_legend(own, &table);
-    if let (Some((name, _)), true) = (measured, has_measured) {
-        legend += &format!("; restitution: measured ({name})");
+    if let Some(note) = measured_note(&measured).filter(|_| has_measured) {
+        legend += &format!("; restitution: {note}");
     }
     let between = if detail == Detail::All { "\n" } else { "" };
     format!("{table}{between}{legend}\n")
@@ -281,20 +285,19 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
         Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
         None => number(size, 2),
     };
-    let neglected = parts.model.map_or(UNKNOWN.to_string(), sized);
-    let input = parts.input.map_or("0".to_string(), sized);
-    [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected, input]
+    let known = |size: Option<f64>| size.map_or(UNKNOWN.to_string(), sized);
+    [known(parts.discretisation), known(parts.model), parts.input.map_or("0".to_string(), sized)]
 }
 
 /// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows, and what it holds: the
 /// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error. There is none where
 /// neglected effects may change it by more than this or by an unknown amount.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
-    let deficit = 1.0 - summary.collision.restitution?;
+    let restitution = summary.collision.restitution?;
+    let deficit = 1.0 - restitution;
     let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);
     let bar = parts.discretisation;
-    let known = deficit.abs().max(bar.unwrap_or(0.0));
-    if deficit.abs() >= NEARLY_ELASTIC || parts.model.is_none_or(|neglected| neglected > known) {
+    if deficit.abs() >= NEARLY_ELASTIC || !has_known_loss(restitution, &parts) {
         return None;
     }
     let shown = with_known_digits(deficit, bar);
@@ -305,8 +308,7 @@ fn elastic_deficit(summary: &Summary) -> Option<String> {
         .map(|it| it.vibration_energy_j)
         .sum();
     // Bodies that lose the share s of the energy keep √(1 − s) of the speed.
-    let by_vibrations =
-        kept.zip(summary.energy.initial_j).map(|(kept, initial)| 0.5 * kept / initial);
+    let by_vibrations = share_of_energy(summary, kept).map(|share| 0.5 * share);
     Some(match by_vibrations {
         Some(lost) if deficit > bar.unwrap_or(0.0) && lost > 0.0 => {
             format!("{shown}, of which {} in vibrations of the bodies", number(lost, 1))
@@ -325,14 +327,10 @@ fn with_known_digits(value: f64, error: Option<f64>) -> String {
     number(value, digits.clamp(1.0, 3.0) as usize)
 }
 
-/// Returns the restitution of a contact of a bouncing ball, with its error bar if it has one.
+/// Returns the restitution of a contact of a bouncing ball with its error bar.
 fn restitution_of_bounce(bounce: &BounceSummary) -> String {
-    let parts = &bounce.restitution_uncertainty;
-    match bounce.restitution {
-        None => NONE.to_string(),
-        Some(value) if *parts == Parts::default() => format!("{value:.4}"),
-        Some(value) => answer_text(value, parts, QuantityOfInterest::Restitution),
-    }
+    let BounceSummary { restitution, restitution_uncertainty: parts, .. } = bounce;
+    bounce_answer(*restitution, parts, bounce.measured_restitution).unwrap_or(NONE.to_string())
 }
 
 /// Returns one line per contact of a bouncing ball, and the contact at rest.
@@ -547,7 +545,7 @@ mod tests {
             error_columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
         };
         assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs", "0"]);
-        assert_eq!(of(Some(1e-17), None, Some(Side::AtLeast)), ["0", "-", "0"]);
+        assert_eq!(of(Some(1e-17), None, Some(Side::AtLeast)), ["0", "?", "0"]);
         assert_eq!(of(None, None, None), ["?", "?", "0"]);
         let plain = Parts {
             discretisation: Some(1.94e-4),

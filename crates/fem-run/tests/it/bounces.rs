@@ -27,6 +27,7 @@ fn bounces_are_printed_and_written_to_summary_and_history() {
             "speed_before_m_s",
             "restitution",
             "restitution_uncertainty",
+            "measured_restitution",
             "contact_time_s",
             "peak_force_n",
             "time_s",

@@ -2,9 +2,11 @@
 //! that is a bound reaches no contact law unless it is asked for.
 
 use fem_case::library::{Material, materials};
+use fem_case::parse_quantity;
 use serde_json::Value;
 
 use crate::common::Place;
+use crate::texts::printed_numbers::odd_number;
 
 const KEYS: [(&str, &str); 6] = [
     ("restitution", "restitution"),
@@ -25,6 +27,101 @@ fn floor(shape: &str) -> String {
     format!("[[body]]\nname = 'floor'\n{shape}\n")
 }
 
+/// A text about a quantity, read: `0.32 (≤ 1.0000)`, `62.46 ± 0.20 µs`, `479.1 ± ? µs`.
+#[derive(Debug)]
+struct Said {
+    /// The measured value before a bound.
+    measured: Option<String>,
+    mark: &'static str,
+    value: f64,
+    /// Size of the last digit.
+    digit: f64,
+    bar: Option<f64>,
+}
+
+/// Reads a text; `None` of one without a number.
+fn said(text: &str) -> Option<Said> {
+    let plain =
+        |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|it| it == c).map(|k| char::from(b'0' + k as u8));
+    let text = text.replace("\u{a0}×\u{a0}10", "e").replace(['⁻', '−'], "-");
+    let text: String = text.trim().chars().map(|c| plain(c).unwrap_or(c)).collect();
+    let (measured, own) = match text.split_once(" (") {
+        Some((measured, own)) => (Some(measured.to_string()), own.trim_end_matches(')')),
+        None => (None, &*text),
+    };
+    let marks = ["≤", "≥", "± ?"];
+    let mark = marks.into_iter().find(|mark| own.contains(mark)).unwrap_or("");
+    let words: Vec<&str> =
+        own.split_whitespace().filter(|word| !["≤", "≥", "±", "?"].contains(word)).collect();
+    let has_bar = own.contains('±') && mark.is_empty();
+    let (numbers, unit) = words.split_at_checked(if has_bar { 2 } else { 1 })?;
+    let si = |number: &str| parse_quantity(&format!("{number} {}", unit.join(" "))).unwrap().0;
+    let decimals = numbers[0].split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let value = parse_quantity(&format!("{} {}", numbers[0], unit.join(" "))).ok()?.0;
+    let (digit, bar) = (si(&format!("1e-{decimals}")), numbers.get(1).map(|bar| si(bar)));
+    Some(Said { measured, mark, value, digit, bar })
+}
+
+/// Compares what two texts say of a quantity, one of them with fewer digits; bars have two.
+fn compare_said(of: &str, text: &str, other: &str) {
+    let (Some(a), Some(b)) = (said(text), said(other)) else {
+        assert!(text.len() <= 3 && other.len() <= 3, "{of}: {text} / {other}");
+        return;
+    };
+    assert_eq!((&a.measured, a.mark), (&b.measured, b.mark), "{of}: {text} / {other}");
+    let digit = 0.51 * (a.digit + b.digit);
+    assert!((a.value - b.value).abs() <= digit, "{of}: {text} / {other}: {a:?} {b:?}");
+    if let (Some(a), Some(b)) = (a.bar, b.bar) {
+        assert!((a - b).abs() <= 0.06 * a + digit, "{of}: {text} / {other}");
+    }
+}
+
+/// Returns the text between two others, and what follows it.
+fn between<'t>(text: &'t str, from: &str, to: &str) -> Option<(&'t str, &'t str)> {
+    text.split_once(from)?.1.split_once(to)
+}
+
+/// Compares the line of a quantity on the terminal with its card and its cells in a comparison of the result with itself.
+fn compare_pages(
+    of: &str,
+    line: &str,
+    has_input: bool,
+    card: &str,
+    comparison: &str,
+    status: &str,
+) {
+    let mut cells = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty());
+    let name = cells.next().unwrap();
+    let [own, mesh, neglected, input] = [0; 4].map(|_| cells.next().unwrap());
+    let of = &format!("{of}: {name}");
+    let row = comparison.split("<tr>").find(|row| row.starts_with(&format!("<td>{name}"))).unwrap();
+    let (first, rest) = between(row, "<td class=\"number\">", "</td>").unwrap();
+    let (second, _) = between(rest, "<td class=\"number\">", "</td>").unwrap();
+    let (second, difference) = second.split_once("<br>").unwrap_or((second, ""));
+    compare_said(of, own, first);
+    assert_eq!(first, second, "{of}");
+    let expected = match status {
+        "computed" => "the same",
+        "bound" => ">\u{2013}<",
+        _ => "",
+    };
+    assert!(difference.contains(expected), "{of}: {difference}");
+    assert_eq!(neglected == "?", status == "bound", "{of}: {line}");
+    let Some((value, notes)) = between(card, "<b>", "</b>") else {
+        assert_eq!(status, "unknown", "{of}");
+        return;
+    };
+    let value = value.replace("<span>", "").replace("</span>", "");
+    compare_said(of, own, &value);
+    assert_eq!(notes.contains("neglected effects ?"), status == "bound", "{of}: {notes}");
+    assert!(status == "computed" || !notes.contains("1 − e"), "{of}: {notes}");
+    if let Some(Said { bar: Some(bar), digit, .. }) = said(&value) {
+        let parts = if has_input { vec![mesh, neglected, input] } else { vec![mesh, neglected] };
+        let sum: f64 = parts.into_iter().filter_map(said).map(|it| it.value).sum();
+        assert!((sum - bar).abs() < 0.1 * bar + digit, "{of}: {line} / {value}");
+    }
+}
+
 /// Compares all faces of one case, and returns its summary.
 fn compare(of: &str, text: &str) -> Value {
     let place = Place::with(text);
@@ -42,6 +139,8 @@ fn compare(of: &str, text: &str) -> Value {
     let row = reader.records().next().unwrap().unwrap();
     let cell = |name: &str| row[header.iter().position(|it| it == name).unwrap()].to_string();
     let report = place.text("result/report.html");
+    place.succeed("report result other --out cmp.html");
+    let comparison = place.text("cmp.html");
     for (key, name) in KEYS {
         let (value, status) = (&summary[key], summary["status"][key].as_str().unwrap());
         let parts = &summary["uncertainty"][key];
@@ -72,6 +171,7 @@ fn compare(of: &str, text: &str) -> Value {
         let card = report.split("<div class=\"card\">").find(|card| card.contains(name));
         let card = card.filter(|_| !value.is_null()).unwrap_or("");
         assert_eq!(card.contains(['≤', '≥']), !sign.is_empty(), "{of}: {card}");
+        compare_pages(of, line, ran.stdout.contains("± input"), card, &comparison, status);
         // An error bar is no rounding noise.
         for part in ["discretisation", "model", "input"] {
             let scale = if key == "restitution" { 1.0 } else { value.as_f64().unwrap_or(1.0) };
@@ -90,6 +190,9 @@ fn compare(of: &str, text: &str) -> Value {
     let fit = "fit case.toml --data sweep/sweep.csv --law tsuji --out fit";
     let refused = place.run(fit);
     assert_eq!(refused.stderr.contains("upper bound"), is_bound, "{of}: {}", refused.stderr);
+    for text in [ran.stdout, ran.stderr, sweep.stdout, sweep.stderr, refused.stderr] {
+        assert_eq!(odd_number(&text), None, "{of}: {text}");
+    }
     summary
 }
 
@@ -211,6 +314,55 @@ fn every_material_says_the_same_everywhere() {
         let meant = text.replace("poissons_ratio = 0.3", "poissons_ratio = 0.3\nelastic = true");
         assert_eq!(compare(modulus, &meant)["status"]["restitution"], "computed", "{modulus}");
     }
+}
+
+/// The bounces on the terminal are those of the page, with the measured restitution of their own speed before a bound.
+#[test]
+fn bounces_say_the_same_everywhere() {
+    for (material, measured) in [("ice", true), ("steel", false), ("pvb", false)] {
+        let falls = "[start]\ngap = '50 um'\n[gravity]\nacceleration = '9.81 m/s^2'\n[stop]\nbounces = 3\n[model.ting]\n";
+        let place = Place::with(
+            &(floor("wall = {}")
+                + &ball("5 cm", "0 m/s", &format!("lib:{material}"))
+                + "[output]\nsnapshots = []\n"
+                + falls),
+        );
+        let ran = place.succeed("case.toml --out result -v").stdout;
+        let page = place.text("result/report.html");
+        let rows = page.split("<h2>Bounces</h2>").nth(1).unwrap().split("<tr>").skip(2).take(3);
+        let rows: Vec<&str> = rows.map(|row| row.split("<td>").nth(3).unwrap()).collect();
+        let lines = ran.lines().skip_while(|line| !line.starts_with("bounce "));
+        let lines: Vec<&str> = lines.skip(1).take(3).collect();
+        assert_eq!((rows.len(), lines.len()), (3, 3));
+        for (row, line) in rows.iter().zip(lines) {
+            let cell = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).nth(3);
+            assert_eq!(row.split_once("</td>").unwrap().0, cell.unwrap(), "{material}: {line}");
+        }
+        let first = ran.lines().find(|line| line.starts_with("restitution")).unwrap();
+        let first = first.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).nth(1);
+        compare_said(material, first.unwrap(), rows[0].split_once("</td>").unwrap().0);
+        assert_eq!(rows[0].contains(" (≤ "), measured, "{material}: {}", rows[0]);
+    }
+}
+
+/// What became of the energy is a share of what a collision can lose, which does not depend on who moves.
+#[test]
+fn shares_of_energy_are_those_of_any_frame() {
+    let coarse = "[accuracy]\ntolerance = '5 %'\n[output]\nsnapshots = []\n[model.fem]\n";
+    let shares = [["0 m/s", "1 m/s"], ["9 m/s", "-8 m/s"], ["1 m/s", "0 m/s"]].map(|speeds| {
+        let wall = floor(&format!("wall = {{}}\napproach_speed = '{}'", speeds[0]));
+        let place = Place::with(&(wall + &ball("10 mm", speeds[1], "lib:steel") + coarse));
+        let ran = place.succeed("case.toml --out result").stdout;
+        let energy = ran.lines().find(|line| line.starts_with("energy:")).unwrap().to_string();
+        let page = place.text("result/report.html");
+        let (said, _) = between(&page, "Of the energy of relative motion, ", ".</p>").unwrap();
+        let words = energy.trim_start_matches("energy:").trim();
+        assert_eq!(said.replace(", and ", ", "), words);
+        energy
+    });
+    assert!(shares.iter().all(|one| *one == shares[0]), "{shares:?}");
+    let (percent, _) = between(&shares[0], "energy:", " %").unwrap();
+    assert!((50.0..100.0).contains(&percent.trim().parse::<f64>().unwrap()), "{shares:?}");
 }
 
 /// Scenes with the statuses of restitution and peak force, and whether a DEM file is written.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use fem_case::{Plate, PlateSupport};
 use fem_material::Material;
 use fem_mesh::{GradedPlate, HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
@@ -179,7 +179,10 @@ fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
     let file = VtuFile::from_bytes(path, bytes);
     let mesh = file.and_then(|file| file.quad_mesh()).map_err(|error| error.to_string())?;
     if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
-        return Err(fault(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
+        return Err(fault(format!(
+            "a point lies at z = {} m, off the plane z = 0",
+            number(point[2], 5)
+        )));
     }
     let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
     SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| fault(error.to_string()))

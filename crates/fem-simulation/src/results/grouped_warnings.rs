@@ -13,7 +13,7 @@ pub struct WarningKind {
     pub first: String,
     /// Index of the run that gave the first warning.
     pub run: usize,
-    /// Least and greatest of each number, with its unit, or the first and the last text where it is no number; one word twice.
+    /// Least and greatest of each number, with its unit; each word twice.
     ends: Vec<[String; 2]>,
     /// Index of the run that gave the last warning.
     pub last_run: usize,
@@ -45,7 +45,7 @@ impl WarningKind {
     pub fn merged(&self) -> String {
         let merge = |[low, high]: &[String; 2]| match low == high {
             true => low.clone(),
-            false => format!("{} … {high}", bare(low)),
+            false => format!("{} … {}", before_marks(low), high.trim_start_matches(is_mark)),
         };
         self.ends.iter().map(merge).collect::<Vec<_>>().join(" ")
     }
@@ -58,13 +58,11 @@ impl WarningKind {
         if more.len() != self.ends.len() {
             return;
         }
-        let value = |text: &str| parse_quantity(bare(text)).ok().map(|(value, _)| value);
-        for ([low, high], Piece { text, .. }) in self.ends.iter_mut().zip(more) {
-            match (value(low), value(high), value(&text)) {
-                (Some(_), Some(greatest), Some(value)) if value > greatest => *high = text,
-                (Some(least), Some(_), Some(value)) if value < least => *low = text,
-                (Some(_), Some(_), Some(_)) => {}
-                _ => *high = text,
+        for ([low, high], Piece { text, value }) in self.ends.iter_mut().zip(more) {
+            if value > number(high) {
+                *high = text;
+            } else if value < number(low) {
+                *low = text;
             }
         }
     }
@@ -99,37 +97,52 @@ impl WarningKinds {
 /// A word of a warning, or a number with its unit.
 struct Piece {
     text: String,
-    is_number: bool,
+    /// The number in SI units; `None` of a word.
+    value: Option<f64>,
 }
 
 /// Splits a text at its blanks, but not between a number and its unit.
 fn pieces(text: &str) -> Vec<Piece> {
-    let is_unit = |word: &str| parse_quantity(&format!("1 {word}")).is_ok();
-    let is_number = |word: &str| {
-        let digits = word.trim_start_matches(['(', '+', '-', '\u{2212}', '±', '≤', '≥']);
-        digits.starts_with(|c: char| c.is_ascii_digit())
-    };
     let mut pieces: Vec<Piece> = Vec::new();
-    let mut is_behind_number = false;
     for word in text.split_whitespace() {
-        match pieces.last_mut().filter(|_| is_behind_number && is_unit(bare(word))) {
-            Some(number) => number.text += &format!(" {word}"),
-            None => pieces.push(Piece { text: word.to_string(), is_number: is_number(word) }),
+        let bare_number = |it: &&mut Piece| it.value.is_some() && before_marks(&it.text) == it.text;
+        let with_unit = pieces.last_mut().filter(bare_number).and_then(|it| {
+            let text = format!("{} {word}", it.text);
+            // "5 in the" is no length.
+            let value = number(&text).filter(|_| !it.text.contains(' ') && word != "in")?;
+            Some((it, Piece { text, value: Some(value) }))
+        });
+        match with_unit {
+            Some((it, with_unit)) => *it = with_unit,
+            None => pieces.push(Piece { text: word.to_string(), value: number(word) }),
         }
-        is_behind_number = is_number(word) && bare(word) == word;
     }
     pieces
 }
 
-/// Returns a word without the punctuation at its end.
-fn bare(word: &str) -> &str {
-    word.trim_end_matches([',', ':', ';', '.', ')'])
+/// Returns the number of a word, with the unit behind it, in SI units; `None` of words, also of those with digits.
+fn number(text: &str) -> Option<f64> {
+    let digits = before_marks(text).trim_start_matches(is_mark).replace(',', "");
+    let starts_so =
+        digits.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
+    let value = starts_so.then(|| parse_quantity(&digits).ok())??;
+    Some(value.0)
+}
+
+/// Returns a text without the punctuation at its end.
+fn before_marks(text: &str) -> &str {
+    text.trim_end_matches(|c| is_mark(c) && c != '%')
+}
+
+fn is_mark(c: char) -> bool {
+    (c.is_ascii_punctuation() && !matches!(c, '+' | '-')) || matches!(c, '±' | '≤' | '≥')
 }
 
 /// Removes the numbers of a text and the units after them.
 fn without_numbers(text: &str) -> String {
     let pieces = pieces(text);
-    let words = pieces.iter().filter(|piece| !piece.is_number).map(|piece| piece.text.as_str());
+    let words =
+        pieces.iter().filter(|piece| piece.value.is_none()).map(|piece| piece.text.as_str());
     words.collect::<Vec<_>>().join(" ")
 }
 
@@ -149,14 +162,6 @@ mod tests {
         let kind = &kinds.all()[0];
         assert_eq!((kind.count, kind.run, kind.last_run), (3, 2, 7));
         assert_eq!(kind.merged(), "a step of 12.3 µm … 2 m is 4 % … 12 % too long");
-        let mut rates = WarningKinds::default();
-        for (rate, change) in [("2000", "+0.01"), ("3000", "+0.02")] {
-            rates.add(0, &format!("a steel is 10 % stronger at {rate} 1/s (e {change}): set material.\"lib:a2\".flow"));
-        }
-        assert_eq!(
-            rates.all()[0].merged(),
-            "a steel is 10 % stronger at 2000 1/s … 3000 1/s (e +0.01 … +0.02): set material.\"lib:a2\".flow"
-        );
         let mut yields = WarningKinds::default();
         yields.add(0, "at 924.9 µm/s: e from 0.84 to 1.00");
         yields.add(1, "at 5.000 m/s: e from 0.14 to 0.26");
@@ -164,6 +169,37 @@ mod tests {
         assert_eq!(
             yields.all()[0].merged(),
             "at 924.9 µm/s … 5.000 m/s: e from 0.14 … 0.84 to 0.26 … 1.00"
+        );
+    }
+
+    /// A merged warning is one of them with ranges in place of its numbers: no word moves, none with digits is merged.
+    #[test]
+    fn only_numbers_become_ranges() {
+        for (texts, merged) in [
+            (
+                [
+                    "10 % stronger at 2000 1/s (e +0.01): set material.steel.flow.rate (c = 0 for none)",
+                    "10 % stronger at 3000 1/s (e +0.02): set material.steel.flow.rate (c = 0 for none)",
+                ],
+                "10 % stronger at 2000 1/s … 3000 1/s (e +0.01 … +0.02): set material.steel.flow.rate (c = 0 for none)",
+            ),
+            (
+                [
+                    "error of 1.2 %, above 1.00 %: write size = \"37.8 µm\", or 1,200 elements",
+                    "error of 800 %, above 1.00 %: write size = \"12.1 µm\", or 900 elements",
+                ],
+                "error of 1.2 % … 800 %, above 1.00 %: write size = \"12.1 µm … 37.8 µm\", or 900 … 1,200 elements",
+            ),
+            (["at 5 in the bounces", "at 7 in the bounces"], "at 5 … 7 in the bounces"),
+        ] {
+            let mut kinds = WarningKinds::default();
+            texts.into_iter().enumerate().for_each(|(run, text)| kinds.add(run, text));
+            let found: Vec<String> = kinds.all().iter().map(WarningKind::merged).collect();
+            assert_eq!(found, [merged]);
+        }
+        assert_ne!(
+            without_numbers("give lib:pa6 damping"),
+            without_numbers("give lib:pa12 damping")
         );
     }
 

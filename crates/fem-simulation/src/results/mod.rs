@@ -33,5 +33,4 @@ pub use snapshots::write_snapshots;
 pub use summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
     PlateSummary, Quantities, RelaxationCoverage, RestSummary, SUMMARY_FILE, Side, Status, Summary,
-    energy_of_impact,
 };

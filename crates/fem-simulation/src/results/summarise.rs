@@ -239,6 +239,7 @@ fn bounces(
     numbers: &mut Numbers,
 ) -> Option<Vec<BounceSummary>> {
     simulation.case().scene().gravity()?;
+    let measured = simulation.case().scene().measured_restitutions();
     let bars = collision.bounces.iter().take(MAX_BARS_OF_BOUNCES);
     let bars: Vec<Parts> = bars.map(|bounce| bar_of(simulation, bounce, errors)).collect();
     let contacts = collision.bounces.iter().enumerate().map(|(k, bounce)| {
@@ -249,6 +250,7 @@ fn bounces(
             speed_before_m_s: number("speed_before_m_s", Some(bounce.speed_before)),
             restitution: number("restitution", Some(bounce.restitution)),
             restitution_uncertainty: bars.get(k).copied().unwrap_or_default(),
+            measured_restitution: measured.iter().find_map(|it| it.at(bounce.speed_before)),
             contact_time_s: number("contact_time_s", bounce.contact_time),
             peak_force_n: number("peak_force_n", bounce.peak_force),
             time_s: number("time_s", Some(bounce.time)),

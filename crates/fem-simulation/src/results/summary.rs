@@ -94,6 +94,14 @@ pub struct Summary {
     pub case: CaseFile,
 }
 
+impl Summary {
+    /// Returns the measured restitutions of the library at the speed of the run, with their names.
+    pub fn measured_restitutions(&self) -> Vec<(&str, f64)> {
+        let all = self.measured_restitution.iter().flatten();
+        all.filter_map(|it| Some((it.name, it.restitution?))).collect()
+    }
+}
+
 /// An effect: whether the run had it, why, and the error of neglecting it.
 #[derive(Clone, Debug, Serialize)]
 pub struct EffectSummary {
@@ -273,6 +281,8 @@ pub struct BounceSummary {
     pub restitution: Option<f64>,
     /// Parts of its error bar.
     pub restitution_uncertainty: Parts,
+    /// Measured restitution of the library at this speed, if it has one.
+    pub measured_restitution: Option<f64>,
     /// Time from the first to the last contact.
     pub contact_time_s: Option<f64>,
     /// Largest contact force.
@@ -353,14 +363,6 @@ pub struct BodySummary {
     pub velocity_after_m_s: Option<f64>,
     /// Energy of the remaining vibrations.
     pub vibration_energy_j: Option<f64>,
-}
-
-/// Returns the energy of relative motion ½ m* v² of two bodies, J, from mass (kg; `None` for a body that does not move) and velocity
-/// (m/s) of each.
-pub fn energy_of_impact(bodies: &[(Option<f64>, Option<f64>)]) -> Option<f64> {
-    let &[(first, own), (second, other)] = bodies else { return None };
-    let inverse: f64 = [first, second].into_iter().flatten().map(f64::recip).sum();
-    Some(0.5 * (own? - other?).powi(2) / inverse).filter(|energy| energy.is_finite())
 }
 
 /// Cost of the run.

@@ -58,7 +58,8 @@ pub enum FitError {
     /// No value of the parameter gives the restitution.
     #[error(
         "no {key} gives a restitution of {wanted} at {} m/s: from {} to {} it runs from \
-         {} to {}", number(*speed, 4), number(range.0, 4), number(range.1, 4), near_one(*least), near_one(*most)
+         {} to {}",
+        number(*speed, 4), number(range.0, 4), number(range.1, 4), near_one(*least), near_one(*most), wanted = number(*wanted, 5)
     )]
     NoSolution {
         /// Key of the parameter.
@@ -76,7 +77,7 @@ pub enum FitError {
     },
 
     /// A number is out of range.
-    #[error("{quantity} must be {allowed}, found {value:?}")]
+    #[error("{quantity} must be {allowed}, found {value}", value = number(*value, 5))]
     OutOfRange {
         /// Name of the quantity.
         quantity: &'static str,

@@ -9,7 +9,7 @@ use super::table::Table;
 use crate::fit::Point;
 use crate::sweep::COLUMNS;
 use fem_case::Scene;
-use fem_case::engineering::number;
+use fem_material::engineering::number;
 use fem_simulation::results::Status;
 
 /// Optional columns; a name that nearly equals one of them is an error.
@@ -52,7 +52,7 @@ impl Restitutions {
     ///
     /// let table = Table::parse("ice.csv", "speed_cm_s,e\n5,60\n")?;
     /// let error = Restitutions::read(&table, case.scene()).unwrap_err();
-    /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60.0");
+    /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
@@ -235,23 +235,23 @@ impl Columns {
         }
         if speed <= 0.0 {
             return Err(table
-                .fault(row, format!("the approach speed is {speed:?} m/s"))
+                .fault(row, format!("the approach speed is {} m/s", number(speed, 5)))
                 .with_help("it must be greater than 0"));
         }
         let restitution = table.number(row, self.restitution, NUMBER)?;
         if !(0.0..=MAX_RESTITUTION).contains(&restitution) {
             return Err(table
-                .fault(row, format!("the restitution is {restitution:?}"))
+                .fault(row, format!("the restitution is {}", number(restitution, 5)))
                 .in_column(&table.header()[self.restitution])
                 .with_help(
                     "it must be from 0 to 1, or to 1.2 with scatter; name the column \
                      restitution_percent for per cents",
                 ));
         }
-        if self.status.is_some_and(|status| is_bound(table, row, status)) {
+        if self.status.is_some_and(|status| table.text(row, status) == Status::Bound.word()) {
             let message = format!(
                 "the restitution {} is an upper bound, and no number for a law",
-                number(restitution, 4)
+                number(restitution, 5)
             );
             return Err(table.fault(row, message).in_column(STATUS).with_help(
                 "give the materials a relaxation or a strength and run the sweep again, name a measured value, or write \

@@ -1,5 +1,7 @@
 //! Restitutions over approach speeds, from a measurement or a sweep.
 
+use fem_material::engineering::number;
+
 use crate::fit::Point;
 use crate::fit::cradle::{Measured, impossible_restitution};
 
@@ -58,7 +60,7 @@ pub enum UnevenUncertainties {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UncertaintyError {
     /// The uncertainty is not greater than 0, or above [`MAX_UNCERTAINTY`].
-    #[error("the uncertainty of a restitution is {0:?}")]
+    #[error("the uncertainty of a restitution is {}", number(*.0, 5))]
     OutOfRange(f64),
     /// The data have their own uncertainties.
     #[error("{0} has uncertainties of its own")]

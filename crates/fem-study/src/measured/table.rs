@@ -8,6 +8,7 @@
 use std::fmt::Display;
 
 use fem_case::{nearest, parse_quantity};
+use fem_material::engineering::number;
 
 use super::column_roles::{bare, column_names, ending_of, is_key, readings, uncertainty_of};
 use super::csv_dialect::{
@@ -379,7 +380,9 @@ impl Table {
         help: &str,
     ) -> DataError {
         let header = &self.header[column];
-        self.fault(row, format!("{header} is {value:?}")).in_column(header).with_help(help)
+        self.fault(row, format!("{header} is {}", number(value, 5)))
+            .in_column(header)
+            .with_help(help)
     }
 
     /// Returns an error about the names of columns.

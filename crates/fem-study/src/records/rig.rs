@@ -1,5 +1,7 @@
 //! The rig of an experiment: what a record does not say by itself.
 
+use fem_material::engineering::number;
+
 use crate::fit::cradle::{Measured, STANDARD_GRAVITY};
 use crate::measured::DataError;
 
@@ -68,7 +70,7 @@ impl Rig {
                 && (is_bad(value, from_0) || !value.is_finite() || uncertainty.is_nan())
             {
                 let allowed = if from_0 { "at least 0" } else { "greater than 0" };
-                let message = format!("--{option} is {value:?}");
+                let message = format!("--{option} is {}", number(value, 5));
                 return Err(
                     DataError::new(name, message).with_help(format!("it must be {allowed}"))
                 );
@@ -89,7 +91,8 @@ impl Rig {
         }
         if let Some(density) = self.density.map(|it| it.value).filter(|it| *it <= AIR_DENSITY) {
             let message = format!(
-                "a ball of {density:?} kg/m³ does not fall in air, which has {AIR_DENSITY} kg/m³"
+                "a ball of {} kg/m³ does not fall in air, which has {AIR_DENSITY} kg/m³",
+                number(density, 5)
             );
             let help = "--density is that of the ball, such as '7800 kg/m^3'";
             return Err(DataError::new(name, message).with_help(help));

@@ -74,7 +74,7 @@ fn gravity_and_bounces_reject_values_out_of_range() {
         fault(&[("bounces = 3", &format!("bounces = {wrong}"))], "bounces is", "");
     }
     let at_rest = [("approach_speed = 0.5\n", ""), ("gap = 0.1", "gap = «0»")];
-    fault(&at_rest, "would never reach its support (impact speed 0.0 m/s)", "gap = \"10 cm\"");
+    fault(&at_rest, "would never reach its support (impact speed 0.000 m/s)", "gap = \"10 cm\"");
 }
 
 /// Torricelli: √(v² + 2 g h), thrown down or up; time of flight from h + v t − g t²/2 = 0.

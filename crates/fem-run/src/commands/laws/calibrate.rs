@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use fem::calibrate::{Calibration, CalibrationFault, CalibrationModel, SettingNames, Settings};
 use fem::measured::{MeasuredPairs, Table, UncertaintyError};
 use fem_case::Case;
+use fem_case::engineering::number;
 use fem_case::parse_quantity;
 use fem_case::schema::ActsOn;
 use fem_report::law_figures::calibration_figure;
@@ -150,7 +151,7 @@ fn fill_uncertainties(arguments: &Arguments, measured: &mut MeasuredPairs) -> Re
     let Some(uncertainty) = arguments.uncertainty else { return Ok(()) };
     measured.data.set_uncertainty(uncertainty).map_err(|error| match error {
         UncertaintyError::OutOfRange(found) => {
-            Failure::bad_input(format!("--uncertainty is {found:?}"))
+            Failure::bad_input(format!("--uncertainty is {}", number(found, 5)))
                 .with_help("give a value greater than 0 and at most 1, the range of restitutions")
         }
         UncertaintyError::Known(_) => {

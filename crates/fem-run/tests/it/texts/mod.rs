@@ -1,7 +1,7 @@
 //! Texts for people: terminal, standard streams, report pages, a first case.
 
 mod new_and_materials;
-mod printed_numbers;
+pub mod printed_numbers;
 mod report;
 mod source_texts;
 mod stdin_stdout;

@@ -37,6 +37,50 @@ fn exponents_before_units(text: &str) -> Vec<&str> {
         .collect()
 }
 
+/// Returns the fields of errors that their messages show with all digits of an `f64`: `{value:?}`, or `{0}` of `Growth(f64)`.
+fn unrounded_fields(code: &str) -> Vec<&str> {
+    let variants = code.split("#[error(").skip(1);
+    variants
+        .flat_map(|variant| {
+            let (message, fields) = variant.split_once(")]\n").unwrap_or((variant, ""));
+            let named = fields.match_indices(": f64").map(|(at, _)| &fields[..at]);
+            let named = named.filter_map(|before| before.split([' ', '\n', '{']).next_back());
+            let first = fields.lines().next().unwrap_or_default().contains("(f64").then_some("0");
+            named.chain(first).filter(move |name| {
+                let is_shown = [format!("{{{name}}}"), format!("{{{name}:?}}")];
+                is_shown.iter().any(|shown| message.contains(shown))
+                    && !message.contains(&format!("{name} = "))
+            })
+        })
+        .collect()
+}
+
+/// An error shows a computed number with the digits that people read. Errors about input show what the user wrote.
+#[test]
+fn no_error_shows_all_digits_of_a_number() {
+    let example = "#[error(\"{a} {b:?} {c}\", c = number(*c, 5))]\nOne { a: &str, b: f64, c: f64 },\n#[error(\"{0}\")]\nTwo(f64)";
+    assert_eq!(unrounded_fields(example), ["b", "0"]);
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("");
+    let (mut n, mut faults) = (0, Vec::new());
+    for own in fs::read_dir(crates).expect("crates").flatten() {
+        if ["fem-case", "fem-material", "fem-contact", "fem-vtk"]
+            .iter()
+            .any(|echoes| own.file_name() == *echoes)
+        {
+            continue;
+        }
+        let sources = sources(&own.path().join("src")).into_iter();
+        for (path, code) in sources.filter(|it| !it.0.ends_with("laws/parameter.rs")) {
+            n += code.matches("#[error(").count();
+            faults.extend(
+                unrounded_fields(&code).iter().map(|it| format!("{}: {it}", path.display())),
+            );
+        }
+    }
+    assert!(n > 100, "{n} errors");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// People read 27.9 µm, not 2.79e-5 m; `engineering::show` sets the prefixes. Input of other codes and
 /// arguments of studies have no text around the number.
 #[test]

@@ -105,7 +105,7 @@ impl Effect for MassScaling {
                  smaller time.mass_scaling",
                 100.0 * share,
                 named.name(),
-                100.0 * MAX_MOVED_MASS * times
+                number(100.0 * MAX_MOVED_MASS * times, 3)
             ))
         });
         warnings.collect()

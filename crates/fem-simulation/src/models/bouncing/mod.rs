@@ -20,6 +20,7 @@ mod stepper;
 
 use std::sync::Arc;
 
+use fem_case::engineering::show;
 use fem_case::{Gravity, Scene, impact_speed};
 use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, Phase, RestState, Snapshot, SnapshotRequest,
@@ -135,7 +136,7 @@ impl Ball {
     /// Returns the model for a contact at a speed, m/s.
     fn made_at(&self, speed: f64) -> Result<Box<dyn Model>, Stop> {
         let scene = self.scene.touching_at(speed);
-        let no_speed = || Stop::NotMade(format!("the ball comes down at {speed:?} m/s"));
+        let no_speed = || Stop::NotMade(format!("the ball comes down at {}", show(speed, "m/s")));
         let scene = scene.ok_or_else(no_speed)?;
         let model = method_of(&scene).build(&scene, &SharedModels::default());
         let model = model.map_err(|rejection| Stop::NotMade(rejection.to_string()))?;

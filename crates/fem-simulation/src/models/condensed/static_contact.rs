@@ -3,6 +3,7 @@
 //! Relaxation times may be far above the time step of explicit elements. The same bodies are condensed with equilibrium
 //! moduli, on a mesh that the plan chooses for Hertz' contact radius under the force, and pressed together.
 
+use fem_case::engineering::show;
 use fem_case::{ModelChoice, Scene};
 use fem_collision::StaticContact;
 use fem_condensed::{CondensedError, CondensedPair};
@@ -29,8 +30,8 @@ pub(in crate::models) fn of_elements(
         hertz.approach * (0.8 * stiffness * hertz.approach.sqrt() / pair.effective_mass()).sqrt();
     let Some(relaxed) = relaxed.touching_at(speed) else {
         return Err(reject(format!(
-            "the static contact has no size: {:?} m",
-            hertz.contact_radius
+            "the static contact has no size: {}",
+            show(hertz.contact_radius, "m")
         )));
     };
     // A static contact needs a larger mesh of a half-space than waves do.

@@ -306,7 +306,7 @@ fn records_that_say_nothing_are_errors_that_say_why() {
     assert!(growing.warnings.join("").contains("on average, above 1"), "{:?}", growing.warnings);
     let rig = |rig: Rig| read(&geometric(5), &rig).unwrap_err().to_string();
     let exact = |value: f64| Some(Measured::exact(value));
-    assert!(rig(Rig { gravity: exact(0.0), ..Rig::default() }).contains("--gravity is 0.0"));
+    assert!(rig(Rig { gravity: exact(0.0), ..Rig::default() }).contains("--gravity is 0"));
     assert!(rig(Rig { diameter: exact(0.01), ..Rig::default() }).contains("density"));
     assert!(rig(Rig { rest: exact(0.2), ..Rig::default() }).contains("at rest at 0.2 s"));
     // A long list, noise and a foam ball end in an answer or an error.
