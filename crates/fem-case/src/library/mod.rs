@@ -110,12 +110,13 @@ pub struct LikeMaterial {
 
 impl LikeMaterial {
     /// Returns the material of the library that is nearest to one in Young's modulus and density, by their ratios, and in Poisson's
-    /// ratio; of several that are equally near within a per cent, the weakest. One without a strength stands for its own kind
-    /// alone, such as glasses; any other solid is judged by the nearest that has one.
+    /// ratio; of several that are equally near the weakest. One without a strength stands for its own kind alone, such as glasses;
+    /// any other solid is judged by its neighbours that have one.
     pub fn of(material: &fem_material::Material) -> Option<Self> {
         const ALIKE: f64 = 0.05;
         const OF_ONE_KIND: f64 = 0.25;
         const EQUALLY_NEAR: f64 = 0.01;
+        const NEIGHBOURS: f64 = 0.5;
         type Numbers = (&'static str, [f64; 3], Option<f64>);
         static NUMBERS: LazyLock<Vec<Numbers>> = LazyLock::new(|| {
             let numbers = |(name, entry): (&'static String, &'static Material)| {
@@ -130,18 +131,19 @@ impl LikeMaterial {
             let (name, yield_strength) = (*name, *yield_strength);
             (distance, Self { name, yield_strength, is_alike: distance < ALIKE })
         };
-        let near = |(distance, like): &(f64, Self)| {
-            ((distance / EQUALLY_NEAR).floor(), like.yield_strength.unwrap_or(f64::INFINITY))
-        };
         let is_its_kind = |(distance, like): &(f64, Self)| {
             like.yield_strength.is_some() || *distance < OF_ONE_KIND
         };
-        let nearest = NUMBERS.iter().map(known).filter(is_its_kind);
-        let nearest = nearest.min_by(|a, b| {
-            let (a, b) = (near(a), near(b));
-            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
-        });
-        nearest.map(|(_, like)| like)
+        let all: Vec<(f64, Self)> = NUMBERS.iter().map(known).filter(is_its_kind).collect();
+        let (nearest, like) = all.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let reach = match (like.yield_strength, like.is_alike) {
+            (None, _) => return Some(*like),
+            (_, true) => EQUALLY_NEAR,
+            _ => NEIGHBOURS,
+        };
+        let strength = |like: &Self| like.yield_strength.unwrap_or(f64::INFINITY);
+        let near = all.iter().filter(|(distance, _)| *distance <= nearest + reach);
+        near.map(|(_, like)| *like).min_by(|a, b| strength(a).total_cmp(&strength(b)))
     }
 }
 
