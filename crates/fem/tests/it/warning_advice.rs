@@ -87,7 +87,7 @@ const ROWS: [Row; 32] = [
         "waves that were reflected",
         1,
     ),
-    (GLASS, &[CONDENSED, STEEL], "as stiff and heavy as", 1),
+    (GLASS, &[CONDENSED, STEEL], "as stiff and heavy as", 2),
     (SOFT, &["limits.element_updates=4e6"], "because of the mesh", 2),
     (
         GLASS,
@@ -170,6 +170,8 @@ fn remedies(warning: &str, simulation: &Simulation, set: &[&str]) -> Vec<Vec<Str
             all.push(with("accuracy.tolerance=0.3".to_string()));
         } else if let Some(key) = way.strip_prefix("raise ") {
             all.push(with(format!("{key}=1e9")));
+        } else if way.ends_with(".elastic = true") {
+            all.push(with(way.to_string()));
         } else if way.contains("yield_strength") {
             all.push(with("material.glass.yield_strength='20 GPa'".to_string()));
         } else if way.contains("hyperelastic") {
