@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use fem_case::engineering::{number, show};
+#[cfg(feature = "files")]
+use fem_case::engineering::number;
+use fem_case::engineering::show;
 use fem_case::{Plate, PlateSupport};
 use fem_material::Material;
 use fem_mesh::{GradedPlate, HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
