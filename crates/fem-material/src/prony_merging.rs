@@ -63,9 +63,9 @@ fn gauss_rule(octave: &[PronyTerm]) -> Vec<PronyTerm> {
     }
     nodes
         .into_iter()
-        .map(|node| {
-            let squares: f64 = recurrence.orthonormal(node).map(|value| value * value).sum();
-            PronyTerm { weight: squares.recip(), relaxation_time: 2.0 * slowest / (node + 3.0) }
+        .map(|node| PronyTerm {
+            weight: recurrence.weight(node),
+            relaxation_time: 2.0 * slowest / (node + 3.0),
         })
         .collect()
 }
@@ -108,29 +108,29 @@ impl Recurrence {
         recurrence
     }
 
-    /// Returns p̂_0, p̂_1, … below the degree of the rule, at x.
-    fn orthonormal(&self, x: f64) -> impl Iterator<Item = f64> + '_ {
-        let mut last = [0.0, self.norms[0].recip()];
-        (0..self.centres.len()).map(move |k| {
-            if k > 0 {
-                let next = (x - self.centres[k - 1]) * last[1] - self.norms[k - 1] * last[0];
-                last = [last[1], next / self.norms[k]];
-            }
-            last[1]
-        })
+    /// Returns the monic polynomials p_0, p_1, … up to the degree of the rule at x, which are p̂_k n_0 … n_k.
+    fn monic(&self, x: f64) -> impl Iterator<Item = f64> + '_ {
+        let steps = self.centres.iter().zip(&self.norms);
+        let later = steps.scan([0.0, 1.0], move |last, (centre, norm)| {
+            *last = [last[1], (x - centre) * last[1] - norm.powi(2) * last[0]];
+            Some(last[1])
+        });
+        std::iter::once(1.0).chain(later)
+    }
+
+    /// Returns the weight of the rule at one of its nodes, the inverse of the sum of p̂_k².
+    fn weight(&self, node: f64) -> f64 {
+        let scales = self.norms.iter().scan(1.0, |scale, norm| {
+            *scale *= norm;
+            Some(*scale)
+        });
+        let values = self.monic(node).take(self.centres.len()).zip(scales);
+        values.map(|(value, scale)| (value / scale).powi(2)).sum::<f64>().recip()
     }
 
     /// Returns the zero of the polynomial of a degree that lies between two points.
     fn zero(&self, degree: usize, low: f64, high: f64) -> f64 {
-        // The sign of the polynomial, up to a positive factor.
-        let value = |x: f64| {
-            let mut last = [0.0, 1.0];
-            for k in 0..degree {
-                let next = (x - self.centres[k]) * last[1] - self.norms[k].powi(2) * last[0];
-                last = [last[1], next];
-            }
-            last[1]
-        };
+        let value = |x: f64| self.monic(x).nth(degree).unwrap_or_default();
         let rises = value(high) > 0.0;
         let [mut low, mut high] = [low, high];
         while low.midpoint(high) > low && low.midpoint(high) < high {

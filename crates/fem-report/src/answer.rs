@@ -63,7 +63,7 @@ pub fn relative_motion_energy(bodies: [(Option<f64>, f64); 2]) -> Option<f64> {
     Some(0.5 * speed * speed / mobility).filter(|energy| *energy > 0.0 && energy.is_finite())
 }
 
-/// Whether 1 − e is known: neglected effects change it by no more than its own size or the discretisation error. That of a bound
+/// Returns whether 1 − e is known: neglected effects change it by no more than its own size or the discretisation error. That of a bound
 /// is not.
 pub fn has_known_loss(restitution: f64, parts: &Parts) -> bool {
     let known = (1.0 - restitution).abs().max(parts.discretisation.unwrap_or(0.0));

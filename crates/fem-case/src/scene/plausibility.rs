@@ -65,12 +65,6 @@ impl Scene {
         }
     }
 
-    /// Returns the measured restitution of the library at the approach speed.
-    pub fn measured_restitution(&self) -> Option<(&'static MeasuredRestitution, f64)> {
-        let speed = self.approach_speed();
-        self.measured_restitutions().iter().find_map(|it| Some((it, it.at(speed)?)))
-    }
-
     /// Returns a note that relaxations hold at their reference temperatures, since the case gives no temperature.
     pub fn reference_temperatures(&self) -> Option<String> {
         let known = self.bodies.iter().filter_map(|body| {

@@ -84,6 +84,13 @@ impl BodyTable {
         Self { approach_speed: Some(speed.into()), ..self }
     }
 
+    /// Replaces a plate by a half-space of its material.
+    pub fn make_plate_half_space(&mut self) {
+        if self.plate.take().is_some() {
+            self.half_space = Some(EmptyTable {});
+        }
+    }
+
     /// Returns this sphere with a fixed mass centre.
     pub fn held(self) -> Self {
         Self { held: Some(true), ..self }

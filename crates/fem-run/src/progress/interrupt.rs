@@ -30,8 +30,9 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Listens to the signals that ask a process to end. The first one requests an orderly end if somebody watches, and a later SIGINT, SIGTERM or SIGHUP ends the process at once. SIGXCPU, which comes again every second, and SIGUSR1 are what batch systems send before a
-    /// job's time is over.
+    /// Listens to the signals that ask a process to end. The first one requests an orderly end if somebody watches, and a later
+    /// SIGINT, SIGTERM or SIGHUP ends the process at once. SIGXCPU, which comes again every second, and SIGUSR1 are what batch
+    /// systems send before a job's time is over.
     pub fn listen() -> Self {
         let interrupt = Self::default();
         // If no handler can be set, a signal ends the process.

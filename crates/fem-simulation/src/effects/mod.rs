@@ -22,6 +22,7 @@ use fem_collision::Collision;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::estimate::plastic_flow::{FlowingImpact, mean_pressure_impact};
 use crate::estimate::plate_impact::PlateImpact;
 use crate::rejection::Rejection;
 
@@ -172,21 +173,22 @@ pub fn decide(
 /// empty.
 pub fn bounds_of_closed_forms(scene: &Scene, speed: f64) -> Vec<String> {
     let Ok(estimate) = Estimate::at(scene, speed) else { return Vec::new() };
-    let is_law = matches!(scene.model(), ModelChoice::Law { .. });
-    if is_law && !AdhesionEffect::is_lacking(scene, speed)
-        || AdhesionEffect::surely_sticks(scene, speed)
-    {
+    if AdhesionEffect::surely_sticks(scene, speed) {
         return Vec::new();
     }
+    let is_law = matches!(scene.model(), ModelChoice::Law { .. });
     let flows = PlasticFlow::is_on(scene, &estimate)
         && PlasticFlow::of_elements(scene, &estimate) != Support::Lacks;
     // Waves from the edge of a plate give energy back that closed forms leave out.
     let returns = PlateImpact::of(scene, &estimate).is_some_and(|plate| plate.edge_return <= 1.0);
     let is_missing = |effect: &&&dyn Effect| match effect.name() {
-        PlasticFlow::NAME => !flows && !is_law,
-        PlateBending::NAME => returns,
-        AdhesionEffect::NAME => AdhesionEffect::given(scene).is_none(),
+        AdhesionEffect::NAME => {
+            AdhesionEffect::is_lacking(scene, speed) && AdhesionEffect::given(scene).is_none()
+        }
+        // All other losses of a contact law are the user's.
         _ if is_law => false,
+        PlasticFlow::NAME => !flows,
+        PlateBending::NAME => returns,
         _ => effect.is_dissipative(),
     };
     let warning = |effect: &&dyn Effect| {
@@ -194,6 +196,15 @@ pub fn bounds_of_closed_forms(scene: &Scene, speed: f64) -> Vec<String> {
         effect.forced(scene, &estimate).or(relevance.warning)
     };
     EFFECTS.iter().filter(is_missing).filter_map(warning).collect()
+}
+
+/// Returns the impact of a scene at a speed (m/s) by the mean-pressure law where explicit elements compute the flow of a body; `None` if
+/// no body with a flow rule yields, or the case forbids flow.
+pub fn computed_flow(scene: &Scene, speed: f64) -> Option<FlowingImpact> {
+    let estimate = Estimate::at(scene, speed).ok()?;
+    PlasticFlow::is_on(scene, &estimate)
+        .then(|| mean_pressure_impact(scene, &estimate.hertz))
+        .flatten()
 }
 
 /// Returns the restitution at a speed (m/s) beside adhesion, if the case gives it, from that without; 0 if the bodies stick.

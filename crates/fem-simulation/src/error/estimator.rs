@@ -185,7 +185,7 @@ fn needs_own(simulation: &Simulation, collision: &Collision) -> bool {
     estimate.is_none_or(|estimate| needs_own_reference(&estimate, is_finite()))
 }
 
-/// What floors of the bars are proportional to.
+/// The shares in proportion to which floors of the bars grow.
 #[derive(Clone, Copy)]
 struct Shares {
     /// Share of the modulus that is lost within one contact time.

@@ -1,6 +1,6 @@
 //! Reference runs: cheaper collisions of the same bodies, whose Richardson limit estimates the discretisation error.
 
-use fem_case::schema::{ContactMethod, EmptyTable, StopTable};
+use fem_case::schema::{BodyTable, ContactMethod, StopTable};
 use fem_case::{CaseFile, Quantity, defaults};
 use fem_collision::{
     Approach, Collision, OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest,
@@ -306,9 +306,7 @@ fn collide(
         if is_condensed {
             // Condensed bodies lack these effects and springs, and are half-spaces where the contact is on a plate.
             file.effects = None;
-            for body in file.body.iter_mut().filter(|body| body.plate.is_some()) {
-                (body.plate, body.half_space) = (None, Some(EmptyTable {}));
-            }
+            file.body.iter_mut().for_each(BodyTable::make_plate_half_space);
             if let Some(mesh) = file.mesh.as_mut().filter(|_| subject.plan.estimate.bends) {
                 mesh.far_radius = None;
             }

@@ -8,7 +8,6 @@ use fem_collision::QuantityOfInterest;
 use fem_laws::{FirstYield, HertzImpact, ImpactQuantities, LawFamily};
 use fem_material::{FlowRule, RateFactor};
 
-use crate::effects::PlasticFlow;
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::free_plate;
 use crate::models::Reduced;
@@ -43,18 +42,9 @@ pub(crate) fn flowing_body<'a>(
 
 /// Returns the impact of a scene by the mean-pressure law, or that of elastic bodies if it is slower than first yield; `None` if no
 /// body has a yield strength.
-fn mean_pressure_impact(scene: &Scene, hertz: &HertzImpact) -> Option<FlowingImpact> {
+pub(crate) fn mean_pressure_impact(scene: &Scene, hertz: &HertzImpact) -> Option<FlowingImpact> {
     let (_, first, strain_rate) = first_yield_of(scene, hertz, |_| true, None)?;
     Some(FlowingImpact::of(&first, strain_rate))
-}
-
-/// Returns the impact of a scene at a speed (m/s) by the mean-pressure law where explicit elements compute the flow of a body; `None` if
-/// no body with a flow rule yields, or the case forbids flow.
-pub fn computed_flow(scene: &Scene, speed: f64) -> Option<FlowingImpact> {
-    let estimate = Estimate::at(scene, speed).ok()?;
-    PlasticFlow::is_on(scene, &estimate)
-        .then(|| mean_pressure_impact(scene, &estimate.hertz))
-        .flatten()
 }
 
 /// Returns the impact of a scene with a flow rule by the mean-pressure law; `None` if no body flows. A rule that does not depend

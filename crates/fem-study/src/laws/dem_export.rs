@@ -4,7 +4,7 @@ use crate::fit::dem::{
     DentingSprings, Export, HuntCrossley, Sphere, fit_dissipation, fit_springs, restitution_of,
 };
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
-use fem_case::schema::EmptyTable;
+use fem_case::schema::BodyTable;
 use fem_case::{Body, Case, Scene};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily};
@@ -112,7 +112,7 @@ impl DemExport {
                     validity,
                 });
             }
-            if let Some(law) = by_mdr(case, plate, &curve, tolerance) {
+            if let Some(law) = by_mdr(case, &curve, tolerance) {
                 mdr = Some(([law.values[0], law.values[1]], law.validity));
                 laws.push(law);
             }
@@ -172,17 +172,9 @@ fn viscoelastic(
 }
 
 /// Fits the yield strength of LAMMPS' `mdr` to the restitutions; `None` if no strength makes them.
-fn by_mdr(
-    case: &Case,
-    plate: Option<usize>,
-    curve: &ImpactCurve,
-    tolerance: f64,
-) -> Option<FittedLaw> {
-    let on_block = case.edited(|file| {
-        if let Some(body) = plate.map(|side| &mut file.body[side]) {
-            (body.plate, body.half_space) = (None, Some(EmptyTable {}));
-        }
-    });
+fn by_mdr(case: &Case, curve: &ImpactCurve, tolerance: f64) -> Option<FittedLaw> {
+    let on_block =
+        case.edited(|file| file.body.iter_mut().for_each(BodyTable::make_plate_half_space));
     let law = ChosenLaw::of(&on_block.ok()?, LawFamily::Mdr, &[], None).ok()?;
     let points = timeless(&curve.points);
     let values = law.problem(&points, &["yield_strength"]).ok()?.fit(CONFIDENCE).ok()?.values;

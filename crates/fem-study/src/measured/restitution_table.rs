@@ -248,7 +248,7 @@ impl Columns {
                      restitution_percent for per cents",
                 ));
         }
-        if self.status.is_some_and(|status| table.text(row, status) == Status::Bound.word()) {
+        if self.status.is_some_and(|status| is_bound(table, row, status)) {
             let message = format!(
                 "the restitution {} is an upper bound, and no number for a law",
                 number(restitution, 5)
@@ -270,7 +270,7 @@ impl Columns {
     }
 }
 
-/// Whether a cell of a column of statuses says that the restitution is a bound.
+/// Returns whether a cell of a column of statuses says that the restitution is a bound.
 fn is_bound(table: &Table, row: usize, status: usize) -> bool {
     table.text(row, status) == Status::Bound.word()
 }

@@ -4,12 +4,13 @@
 use fem_case::engineering::{Unit, number};
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
+use fem_laws::ImpactQuantities;
 
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::relevance::Relevance;
 use crate::effects::decision::{AdhesionEffect, Effect, MaterialLoss, PlasticFlow};
 use crate::estimate::Estimate;
-use crate::estimate::plastic_flow::{FlowingImpact, flowing_impact};
+use crate::estimate::plastic_flow::flowing_impact;
 use crate::quantity_errors::QuantityErrors;
 
 impl Effect for MaterialLoss {
@@ -79,9 +80,11 @@ const LOSS_OF_FLOW: f64 = 0.02;
 impl MaterialLoss {
     /// Returns the bodies whose loss is not known, each material once.
     fn unknown<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<&'a Body> {
-        let loses = |flow: FlowingImpact| 1.0 - flow.quantities.restitution > LOSS_OF_FLOW;
-        let flows = PlasticFlow::is_on(scene, estimate)
-            && flowing_impact(scene, &estimate.hertz, None).is_some_and(loses);
+        // The estimate for a model that is elastic has no flow.
+        let flow = || Some(flowing_impact(scene, &estimate.hertz, None)?.quantities);
+        let loses = |flow: ImpactQuantities| 1.0 - flow.restitution > LOSS_OF_FLOW;
+        let flows =
+            PlasticFlow::is_on(scene, estimate) && estimate.flow.or_else(flow).is_some_and(loses);
         let mut bodies: Vec<&Body> = scene.bodies_of_unknown_loss(flows).collect();
         bodies.dedup_by_key(|body| body.material_key(""));
         bodies
