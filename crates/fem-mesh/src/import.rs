@@ -184,34 +184,23 @@ fn split_boundary(
     centre: f64,
     tolerance: f64,
 ) -> Result<(Vec<u32>, Vec<u32>), MeshError> {
-    let on_axis = |p: [f64; 2]| p[0].abs() <= tolerance;
-    let contact_pole = boundary
-        .iter()
-        .position(|&node| {
-            let p = nodes[node as usize];
-            on_axis(p) && p[1].abs() <= tolerance
-        })
-        .ok_or_else(|| {
-            MeshError::Import("no boundary node lies at the contact pole (0, 0)".into())
-        })?;
+    let pole = |boundary: &[u32], y: f64, name: &str| {
+        let is_pole = |&node: &u32| {
+            let [r, at] = nodes[node as usize];
+            r.abs() <= tolerance && (at - y).abs() <= tolerance
+        };
+        let message =
+            || MeshError::Import(format!("no boundary node lies at the {name} pole (0, {y})"));
+        boundary.iter().position(is_pole).ok_or_else(message)
+    };
+    let contact_pole = pole(&boundary, 0.0, "contact")?;
     boundary.rotate_left(contact_pole);
     // Counter-clockwise from the contact pole: a body above runs along the
     // surface first, one below along the axis first.
     if centre < 0.0 {
         boundary[1..].reverse();
     }
-    let far_pole = boundary
-        .iter()
-        .position(|&node| {
-            let p = nodes[node as usize];
-            on_axis(p) && (p[1] - 2.0 * centre).abs() <= tolerance
-        })
-        .ok_or_else(|| {
-            MeshError::Import(format!(
-                "no boundary node lies at the far pole (0, {})",
-                2.0 * centre
-            ))
-        })?;
+    let far_pole = pole(&boundary, 2.0 * centre, "far")?;
     let surface = boundary[..=far_pole].to_vec();
     let mut axis = vec![boundary[0]];
     axis.extend(boundary[far_pole..].iter().rev());

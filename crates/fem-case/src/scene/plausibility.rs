@@ -171,6 +171,23 @@ enum Number {
     HardeningModulus,
 }
 
+impl Number {
+    /// Returns the unit, and the keys of the body or material that may have given the number.
+    fn keys(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Diameter => ("m", &["sphere.diameter"]),
+            Self::PlateThickness => ("m", &["plate.thickness"]),
+            Self::PlateDiameter => ("m", &["plate.diameter"]),
+            Self::Density => ("kg/m^3", &["density"]),
+            Self::Modulus => ("Pa", &["youngs_modulus", "shear_modulus", "bulk_modulus"]),
+            Self::YieldStrength => {
+                ("Pa", &["yield_strength", "flow.yield_strength", "flow.hardening.table.0.1"])
+            }
+            Self::HardeningModulus => ("Pa", &["flow.hardening.modulus"]),
+        }
+    }
+}
+
 impl Case {
     /// Rejects implausible numbers that the file or an override gives without a unit, bare sizes of 1 m and more, and bare
     /// moduli below 0.1 MPa.
@@ -229,73 +246,62 @@ impl Case {
     /// Returns the numbers that need a unit to be accepted, each with the keys that may have given it.
     fn unusual_numbers(&self) -> Vec<Unusual> {
         let mut all = Vec::new();
-        for (side, body) in self.scene.bodies.iter().enumerate() {
+        for side in 0..2 {
             let material = self.file.body[side].material.as_deref().unwrap_or_default();
             let mut found = self.scene.implausible(side);
-            let is_told = found.iter().any(|one| one.number == Number::Diameter);
-            if let Some(large) = body.diameter().filter(|diameter| *diameter >= LARGE && !is_told) {
-                let message = format!("the diameter of {} is {}", body.name(), show(large, "m"));
-                found.push(Implausible { number: Number::Diameter, message });
-            }
-            for (number, size) in [
-                (Number::PlateThickness, body.plate().map(|plate| plate.thickness)),
-                (Number::PlateDiameter, body.plate().and_then(|plate| plate.diameter)),
-            ] {
-                let what = if number == Number::PlateThickness { "thickness" } else { "diameter" };
-                if let Some(large) = size.filter(|size| *size >= LARGE) {
-                    let message = format!("the {what} of {} is {}", body.name(), show(large, "m"));
-                    found.push(Implausible { number, message });
+            for bare in self.doubtful_if_bare(side, material) {
+                if found.iter().all(|told| told.number != bare.number) {
+                    found.push(bare);
                 }
-            }
-            let is_told = found.iter().any(|one| one.number == Number::Modulus);
-            let modulus = body.material().map(|it| it.instantaneous().youngs_modulus());
-            if let Some(small) = modulus.filter(|modulus| *modulus < SMALL_MODULUS && !is_told) {
-                let message =
-                    format!("Young's modulus of {} is {}", body.name(), show(small, "Pa"));
-                found.push(Implausible { number: Number::Modulus, message });
-            }
-            let hardening = self.file.material.get(material).and_then(|table| {
-                table.flow.as_ref()?.hardening.as_ref()?.modulus.as_ref()?.si().ok()
-            });
-            if let Some(small) = hardening.filter(|it| *it > 0.0 && *it < SMALL_MODULUS) {
-                let message =
-                    format!("the hardening modulus of {} is {}", body.name(), show(small, "Pa"));
-                found.push(Implausible { number: Number::HardeningModulus, message });
             }
             for Implausible { number, message } in found {
-                let mut push = |path: &[&str], unit| {
-                    let path = path.iter().map(ToString::to_string).collect();
-                    all.push(Unusual { side, message: message.clone(), path, unit });
+                let (unit, keys) = number.keys();
+                let place = match unit {
+                    "m" => ["body".to_string(), side.to_string()],
+                    _ => ["material".to_string(), material.to_string()],
                 };
-                match number {
-                    Number::Diameter => {
-                        push(&["body", &side.to_string(), "sphere", "diameter"], "m");
-                    }
-                    Number::PlateThickness => {
-                        push(&["body", &side.to_string(), "plate", "thickness"], "m");
-                    }
-                    Number::PlateDiameter => {
-                        push(&["body", &side.to_string(), "plate", "diameter"], "m");
-                    }
-                    Number::Density => push(&["material", material, "density"], "kg/m^3"),
-                    Number::Modulus => {
-                        for key in ["youngs_modulus", "shear_modulus", "bulk_modulus"] {
-                            push(&["material", material, key], "Pa");
-                        }
-                    }
-                    Number::HardeningModulus => {
-                        push(&["material", material, "flow", "hardening", "modulus"], "Pa");
-                    }
-                    Number::YieldStrength => {
-                        push(&["material", material, "yield_strength"], "Pa");
-                        push(&["material", material, "flow", "yield_strength"], "Pa");
-                        let first = ["material", material, "flow", "hardening", "table", "0", "1"];
-                        push(&first, "Pa");
-                    }
-                }
+                all.extend(keys.iter().map(|keys| {
+                    let path = keys.split('.').map(str::to_string);
+                    let path = place.iter().cloned().chain(path).collect();
+                    Unusual { side, message: message.clone(), path, unit }
+                }));
             }
         }
         all
+    }
+
+    /// Returns the numbers of a body that are doubtful without a unit.
+    fn doubtful_if_bare(&self, side: usize, material: &str) -> impl Iterator<Item = Implausible> {
+        let body = &self.scene.bodies[side];
+        let plate = body.plate();
+        let modulus = body.material().map(|it| it.instantaneous().youngs_modulus());
+        let hardening =
+            self.file.material.get(material).and_then(|table| {
+                table.flow.as_ref()?.hardening.as_ref()?.modulus.as_ref()?.si().ok()
+            });
+        let large = |size: &f64| *size >= LARGE;
+        let small = |modulus: &f64| *modulus > 0.0 && *modulus < SMALL_MODULUS;
+        let numbers = [
+            (Number::Diameter, "the diameter", "m", body.diameter().filter(large)),
+            (
+                Number::PlateThickness,
+                "the thickness",
+                "m",
+                plate.map(|it| it.thickness).filter(large),
+            ),
+            (
+                Number::PlateDiameter,
+                "the diameter",
+                "m",
+                plate.and_then(|it| it.diameter).filter(large),
+            ),
+            (Number::Modulus, "Young's modulus", "Pa", modulus.filter(small)),
+            (Number::HardeningModulus, "the hardening modulus", "Pa", hardening.filter(small)),
+        ];
+        numbers.into_iter().filter_map(|(number, what, unit, value)| {
+            let message = format!("{what} of {} is {}", body.name(), show(value?, unit));
+            Some(Implausible { number, message })
+        })
     }
 }
 

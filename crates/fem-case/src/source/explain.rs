@@ -1,5 +1,7 @@
 //! Translates serde's errors into the terms of a case file.
 
+use std::ops::Range;
+
 use toml::de::Error;
 
 use crate::error::CaseError;
@@ -101,17 +103,44 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     let message = error.message();
     let span = error.span().unwrap_or(0..0);
     let path = document.path_of(&span).unwrap_or("");
-    let at = |message: String| match path {
-        "" => document.error_on(span.clone(), message),
-        path => document.error_on(span.clone(), message).about(path),
-    };
-    let in_table = |path: &str| {
-        if path.is_empty() { String::new() } else { format!(" in {path}") }
-    };
-
+    let fault = Fault { document, span, path };
+    let expected = |start: &str| message.strip_prefix(start)?.rsplit_once(", expected ");
     if let Some(rest) = message.strip_prefix("unknown field ") {
+        fault.unknown_key(rest)
+    } else if let Some(rest) = message.strip_prefix("missing field ") {
+        fault.missing_key(rest.trim_matches('`'))
+    } else if let Some(rest) = message.strip_prefix("unknown variant ") {
+        let (found, allowed) = split_backticked(rest);
+        let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
+        let help = format!("{}write one of {}", near(found, &allowed), quoted.join(", "));
+        fault.error(format!("{path} is \"{found}\", which is not allowed")).with_help(help)
+    } else if let Some((found, wanted)) = expected("invalid type: ") {
+        fault.wrong_type(found, wanted)
+    } else if let Some((_, wanted)) = expected("invalid length ") {
+        // serde reads an array as a struct's fields in order and reports their number.
+        fault.error(format!("{} is an array", name(path))).with_help(format!("write {wanted}"))
+    } else {
+        fault.error(first_line(message))
+    }
+}
+
+/// The place of one of serde's errors.
+struct Fault<'d> {
+    document: &'d Document,
+    span: Range<usize>,
+    /// The key, or that of the table; empty for the whole text.
+    path: &'d str,
+}
+
+impl Fault<'_> {
+    fn error(&self, message: String) -> CaseError {
+        let error = self.document.error_on(self.span.clone(), message);
+        if self.path.is_empty() { error } else { error.about(self.path) }
+    }
+
+    fn unknown_key(&self, rest: &str) -> CaseError {
         let (found, mut allowed) = split_backticked(rest);
-        let table = path.rfind('.').map_or("", |dot| &path[..dot]);
+        let table = self.path.rfind('.').map_or("", |dot| &self.path[..dot]);
         // A name of hardening stands for a table without keys, which nobody writes.
         if table.ends_with(".flow.hardening") {
             allowed.retain(|key| !HardeningTable::NAMES.contains(key));
@@ -119,70 +148,59 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
         let help = match (table, found) {
             _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
-            ("", _) if allowed.contains(&"vary") && document.has("body") => {
+            ("", _) if allowed.contains(&"vary") && self.document.has("body") => {
                 "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
                     .to_string()
             }
-            _ => hint(table, found, document.value_text(path)).unwrap_or_else(keys),
+            _ => hint(table, found, self.document.value_text(self.path)).unwrap_or_else(keys),
         };
-        return at(format!("unknown key `{found}`{}", in_table(table)))
+        self.error(format!("unknown key `{found}`{}", in_table(table)))
             .labelled("unknown key")
-            .with_help(help);
+            .with_help(help)
     }
-    if let Some(rest) = message.strip_prefix("missing field ") {
-        let missing = rest.trim_matches('`');
-        let error =
-            at(format!("the key `{missing}` is missing{}", in_table(path))).lacking(missing);
+
+    fn missing_key(&self, missing: &str) -> CaseError {
+        let message = format!("the key `{missing}` is missing{}", in_table(self.path));
+        let error = self.error(message).lacking(missing);
         let example = EXAMPLES.iter().find(|(key, _)| *key == missing);
-        let material = path.strip_prefix("material.").filter(|_| missing == "density");
-        let own = material.and_then(|name| unused_material(document, name));
-        return match (own, example) {
+        let material = self.path.strip_prefix("material.").filter(|_| missing == "density");
+        let own = material.and_then(|name| unused_material(self.document, name));
+        match (own, example) {
             (Some(help), _) => error.with_help(help),
             (None, Some((_, line))) => error.with_help(format!("write {line}")),
             (None, None) => error,
-        };
+        }
     }
-    if let Some(rest) = message.strip_prefix("unknown variant ") {
-        let (found, allowed) = split_backticked(rest);
-        let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
-        return at(format!("{path} is \"{found}\", which is not allowed")).with_help(format!(
-            "{}write one of {}",
-            near(found, &allowed),
-            quoted.join(", ")
-        ));
-    }
-    if let Some((found, wanted)) =
-        message.strip_prefix("invalid type: ").and_then(|rest| rest.rsplit_once(", expected "))
-    {
-        // serde treats a date as a table.
-        let is_date =
-            found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
-        let choice = choice_at(&path.split('.').collect::<Vec<_>>());
+
+    fn wrong_type(&self, found: &str, wanted: &str) -> CaseError {
+        let choice = choice_at(&self.path.split('.').collect::<Vec<_>>());
         let names = choice.map(|choice| choice.names);
         if let (Some(names), Some(word)) = (names, found.strip_prefix("string ")) {
             let word = word.trim_matches('"');
-            let key = path.rsplit('.').next().unwrap_or(path);
+            let key = self.path.rsplit('.').next().unwrap_or(self.path);
             let near = near(word, names);
             let help = match wanted.starts_with('"') {
                 true => format!("{near}write {wanted}"),
                 false => format!("{near}write one of {}, or {wanted}", names.join(", ")),
             };
-            return at(format!("unknown {key} \"{word}\"")).with_help(help);
+            return self.error(format!("unknown {key} \"{word}\"")).with_help(help);
         }
-        let found = if is_date { "a date or time".to_string() } else { with_article(found) };
-        let wanted = match path {
+        // serde treats a date as a table.
+        let text = self.document.text_on(&self.span);
+        let found = match found == "map" && text.starts_with(|c: char| c.is_ascii_digit()) {
+            true => "a date or time".to_string(),
+            false => with_article(found),
+        };
+        let wanted = match self.path {
             "body" => "two [[body]] tables".to_string(),
             _ => with_article(wanted),
         };
-        return at(format!("{} is {found}", name(path))).with_help(format!("write {wanted}"));
+        self.error(format!("{} is {found}", name(self.path))).with_help(format!("write {wanted}"))
     }
-    // serde reads an array as a struct's fields in order and reports their number.
-    if let Some((_, wanted)) =
-        message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
-    {
-        return at(format!("{} is an array", name(path))).with_help(format!("write {wanted}"));
-    }
-    at(first_line(message))
+}
+
+fn in_table(path: &str) -> String {
+    if path.is_empty() { String::new() } else { format!(" in {path}") }
 }
 
 /// Returns that no body is of a material, and of which they are; `None` if one is.

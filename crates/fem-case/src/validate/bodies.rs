@@ -63,19 +63,8 @@ impl Check<'_> {
             ));
         }
         // A falling body may start at rest or move up.
-        if file.gravity.is_none() && lower_speed + upper_speed <= 0.0 {
-            let keys = ["body.0.approach_speed", "body.1.approach_speed"];
-            let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
-            let culprit = keys[usize::from(!is_first_at_fault)];
-            let message = format!(
-                "the bodies do not approach: their approach speeds, {} and {}, add up to {}",
-                show(lower_speed, "m/s"),
-                show(upper_speed, "m/s"),
-                show(lower_speed + upper_speed, "m/s")
-            );
-            return Err(self.conflict(culprit, &keys, message).with_help(
-                "approach_speed is positive toward the other body; the sum must be greater than 0",
-            ));
+        if file.gravity.is_none() {
+            self.approach([lower_speed, upper_speed])?;
         }
         // Adding to 0 gives a body at rest the velocity 0, never -0.
         let lower = (lower, lower_shape, 0.0 + lower_speed);
@@ -96,6 +85,25 @@ impl Check<'_> {
             }
         };
         Ok([body(lower), body(upper)])
+    }
+
+    /// Checks that bodies with these approach speeds, m/s, meet.
+    fn approach(&self, [lower, upper]: [f64; 2]) -> Result<(), CaseError> {
+        if lower + upper > 0.0 {
+            return Ok(());
+        }
+        let keys = ["body.0.approach_speed", "body.1.approach_speed"];
+        let is_first_at_fault = lower <= upper && self.document.has(keys[0]);
+        let culprit = keys[usize::from(!is_first_at_fault)];
+        let message = format!(
+            "the bodies do not approach: their approach speeds, {} and {}, add up to {}",
+            show(lower, "m/s"),
+            show(upper, "m/s"),
+            show(lower + upper, "m/s")
+        );
+        Err(self.conflict(culprit, &keys, message).with_help(
+            "approach_speed is positive toward the other body; the sum must be greater than 0",
+        ))
     }
 
     /// Returns the shape and the approach speed, m/s.

@@ -11,7 +11,7 @@ use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Number, Quantity, Stress};
 use crate::scene::plausibility::YIELD_STRENGTHS;
-use crate::schema::{CaseFile, FlowPoints, FlowTable, HardeningTable};
+use crate::schema::{CaseFile, FlowPoints, FlowTable, HardeningTable, RateTable};
 use crate::source::document::Document;
 use crate::source::toml_syntax::{join, quote_key};
 
@@ -135,20 +135,19 @@ impl Check<'_> {
         };
         let default = HardeningTable::default();
         let hardening = table.hardening.as_ref().unwrap_or(&default);
+        let given = hardening.given();
         let at_hardening = |key: &str| join(&at("hardening"), key);
+        if given.len() > 1 {
+            let keys: Vec<String> = given.iter().map(|key| at_hardening(key)).collect();
+            let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
+            let message = format!("more than one kind of hardening: {}", given.join(", "));
+            let error = self.conflict(keys[keys.len() - 1], &keys, message);
+            return Err(error.with_help("keep one of them"));
+        }
         let hardening = match hardening {
-            _ if hardening.given().len() > 1 => {
-                let given = hardening.given();
-                let keys: Vec<String> = given.iter().map(|key| at_hardening(key)).collect();
-                let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
-                let message = format!("more than one kind of hardening: {}", given.join(", "));
-                return Err(self
-                    .conflict(keys[keys.len() - 1], &keys, message)
-                    .with_help("keep one of them"));
-            }
             HardeningTable { modulus: Some(modulus), .. } => {
-                let modulus =
-                    self.number(&at_hardening("modulus"), modulus, Range::NOT_NEGATIVE)?;
+                let at = at_hardening("modulus");
+                let modulus = self.number(&at, modulus, Range::NOT_NEGATIVE)?;
                 Hardening::Linear { yield_strength: needed()?, modulus }
             }
             HardeningTable { swift: Some(swift), .. } => {
@@ -156,11 +155,10 @@ impl Check<'_> {
                 Hardening::Swift {
                     yield_strength: needed()?,
                     strain: self.number(&at("strain"), &swift.strain, Range::POSITIVE)?,
-                    exponent: self.number(
-                        &at("exponent"),
-                        &swift.exponent,
-                        Range::HARDENING_EXPONENT,
-                    )?,
+                    exponent: {
+                        let range = Range::HARDENING_EXPONENT;
+                        self.number(&at("exponent"), &swift.exponent, range)?
+                    },
                 }
             }
             HardeningTable { table: Some(FlowPoints::Rows(rows)), .. } => Hardening::Table(
@@ -168,22 +166,17 @@ impl Check<'_> {
             ),
             _ => Hardening::Linear { yield_strength: needed()?, modulus: 0.0 },
         };
-        let rate = match &table.rate {
-            None => None,
-            Some(rate) => {
-                let at = |key: &str| join(&at("rate.johnson_cook"), key);
-                let (c, reference) = (&rate.johnson_cook.c, &rate.johnson_cook.reference_rate);
-                Some(RateFactor {
-                    coefficient: self.number(&at("c"), c, Range::NOT_NEGATIVE)?,
-                    reference_rate: self.number(
-                        &at("reference_rate"),
-                        reference,
-                        Range::POSITIVE,
-                    )?,
-                })
-            }
-        };
-        FlowRule::new(hardening, rate).map_err(place)
+        let rate = table.rate.as_ref().map(|rate| self.rate(&at("rate.johnson_cook"), rate));
+        FlowRule::new(hardening, rate.transpose()?).map_err(place)
+    }
+
+    fn rate(&self, path: &str, table: &RateTable) -> Result<RateFactor, CaseError> {
+        let at = |key: &str| join(path, key);
+        let (c, reference) = (&table.johnson_cook.c, &table.johnson_cook.reference_rate);
+        Ok(RateFactor {
+            coefficient: self.number(&at("c"), c, Range::NOT_NEGATIVE)?,
+            reference_rate: self.number(&at("reference_rate"), reference, Range::POSITIVE)?,
+        })
     }
 
     /// Returns the points of a table, which begins at plastic strain 0 or with the yield strength. `own` is the key of the

@@ -6,6 +6,7 @@ use super::Check;
 use super::relaxation::series;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
+use crate::quantity::{Quantity, Stress};
 use crate::scene::body::MeasuredBand;
 use crate::schema::{MaterialTable, RelaxationTable};
 use crate::source::toml_syntax::join;
@@ -32,39 +33,21 @@ impl Check<'_> {
     ) -> Result<CheckedMaterial, CaseError> {
         let at = |key: &str| join(path, key);
         let density = self.number(&at("density"), &table.density, Range::ANY)?;
-        let (youngs_modulus, shear_modulus) = (&table.youngs_modulus, &table.shear_modulus);
-        let (bulk_modulus, poissons_ratio) = (&table.bulk_modulus, &table.poissons_ratio);
+        let modulus = |key: &str, quantity: &Option<Quantity<Stress>>| {
+            self.optional(&at(key), quantity.as_ref(), Range::ANY)
+        };
+        let ratio = table.poissons_ratio.as_ref();
         let input = ModuliInput {
-            youngs_modulus: self.optional(
-                &at("youngs_modulus"),
-                youngs_modulus.as_ref(),
-                Range::ANY,
-            )?,
-            shear_modulus: self.optional(
-                &at("shear_modulus"),
-                shear_modulus.as_ref(),
-                Range::ANY,
-            )?,
-            bulk_modulus: self.optional(&at("bulk_modulus"), bulk_modulus.as_ref(), Range::ANY)?,
-            poissons_ratio: self.optional(
-                &at("poissons_ratio"),
-                poissons_ratio.as_ref(),
-                Range::ANY,
-            )?,
+            youngs_modulus: modulus("youngs_modulus", &table.youngs_modulus)?,
+            shear_modulus: modulus("shear_modulus", &table.shear_modulus)?,
+            bulk_modulus: modulus("bulk_modulus", &table.bulk_modulus)?,
+            poissons_ratio: self.optional(&at("poissons_ratio"), ratio, Range::ANY)?,
         };
         let n_terms = table.relaxation.as_ref().map_or(0, |relaxation| relaxation.terms.len());
         let place = |error| self.material_error(path, &error, n_terms);
         let elastic = ElasticModuli::from_two(input).map_err(place)?;
-        let mut measured = None;
-        let relaxation = match &table.relaxation {
-            Some(relaxation) => {
-                let checked = self.relaxation(path, relaxation)?;
-                let series = series(&checked).map_err(place)?;
-                measured = Some(checked.measured);
-                Some(series)
-            }
-            None => None,
-        };
+        let checked = table.relaxation.as_ref().map(|it| self.relaxation(path, it)).transpose()?;
+        let relaxation = checked.as_ref().map(series).transpose().map_err(place)?;
         let material = Material::new(density, elastic, relaxation).map_err(place)?;
         let material = match table.hyperelastic {
             Some(law) => material.with_law(law.into()),
@@ -90,7 +73,7 @@ impl Check<'_> {
             yield_strength,
             is_elastic: table.elastic.unwrap_or_default(),
             surface_energy: self.optional(&at("surface_energy"), energy, Range::SURFACE_ENERGY)?,
-            measured,
+            measured: checked.map(|relaxation| relaxation.measured),
         })
     }
 

@@ -88,17 +88,7 @@ pub(crate) fn validate(
         refinement: 1.0,
         inputs: Vec::new(),
     };
-    let inputs = check.inputs.take();
-    if let Some(setting) = inputs.iter().find(|input| !is_measured(&input.key)) {
-        let key = &setting.key;
-        return Err(document
-            .error_at(
-                key,
-                format!("{key} has no uncertainty: it is a setting, not a measured input"),
-            )
-            .with_help("write the number alone"));
-    }
-    Ok(Scene { inputs, ..scene })
+    Ok(Scene { inputs: check.measured_inputs()?, ..scene })
 }
 
 /// Returns whether a key is that of a measured input.
@@ -119,6 +109,17 @@ pub(crate) struct Check<'a> {
 }
 
 impl Check<'_> {
+    /// Returns all numbers with an uncertainty.
+    fn measured_inputs(&self) -> Result<Vec<UncertainInput>, CaseError> {
+        let inputs = self.inputs.take();
+        let Some(setting) = inputs.iter().find(|input| !is_measured(&input.key)) else {
+            return Ok(inputs);
+        };
+        let key = &setting.key;
+        let message = format!("{key} has no uncertainty: it is a setting, not a measured input");
+        Err(self.error(key, message).with_help("write the number alone"))
+    }
+
     fn error(&self, path: &str, message: impl Into<String>) -> CaseError {
         self.document.error_at(path, message)
     }

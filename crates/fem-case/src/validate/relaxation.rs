@@ -11,7 +11,7 @@ use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Quantity, QuantityKind};
 use crate::scene::body::MeasuredBand;
-use crate::schema::{CaseFile, RelaxationTable};
+use crate::schema::{BandTable, CaseFile, RelaxationTable};
 use crate::source::document::Document;
 use crate::source::toml_syntax::{join, quote_key};
 
@@ -96,19 +96,7 @@ impl Check<'_> {
         let mut measured =
             MeasuredBand { reference_temperature: reference, ..MeasuredBand::default() };
         if let Some(band) = &table.band {
-            let from = self.number(&at("band.from"), &band.from, Range::POSITIVE)?;
-            let to = self.number(&at("band.to"), &band.to, Range::POSITIVE)?;
-            if to <= from {
-                let error = self.error(&at("band.to"), "the band ends below its beginning");
-                return Err(error.with_help("band.to is above band.from"));
-            }
-            measured.frequencies = Some([from, to]);
-            measured.loss_uncertainty = self.rows(
-                &at("band.loss_uncertainty"),
-                &band.loss_uncertainty,
-                "frequencies",
-                Range::SHARE,
-            )?;
+            self.band(&at("band"), band, &mut measured)?;
         }
         let (young, shear) = (table.youngs_modulus.as_ref(), table.shear_modulus.as_ref());
         measured.youngs_modulus = self.optional(&at("youngs_modulus"), young, Range::POSITIVE)?;
@@ -144,6 +132,25 @@ impl Check<'_> {
             measured.shift = Some(law);
         }
         Ok(CheckedRelaxation { terms, acts_on: acts_on.into(), measured })
+    }
+
+    fn band(
+        &self,
+        path: &str,
+        band: &BandTable,
+        measured: &mut MeasuredBand,
+    ) -> Result<(), CaseError> {
+        let at = |key: &str| join(path, key);
+        let from = self.number(&at("from"), &band.from, Range::POSITIVE)?;
+        let to = self.number(&at("to"), &band.to, Range::POSITIVE)?;
+        if to <= from {
+            let error = self.error(&at("to"), "the band ends below its beginning");
+            return Err(error.with_help("band.to is above band.from"));
+        }
+        measured.frequencies = Some([from, to]);
+        let (rows, of) = (&band.loss_uncertainty, "frequencies");
+        measured.loss_uncertainty = self.rows(&at("loss_uncertainty"), rows, of, Range::SHARE)?;
+        Ok(())
     }
 
     fn shift_law(

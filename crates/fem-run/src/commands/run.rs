@@ -133,7 +133,16 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     watch.finish();
 
     let written = write_result(&folder, &stem, &computed, &stopwatch, Keep::All, left);
-    let WrittenResult { summary, text, fault } = written;
+    conclude(written, folder, options, computed.collision.stop())
+}
+
+/// Publishes a result, prints it, and returns why it is not whole, if so.
+fn conclude(
+    WrittenResult { summary, text, fault }: WrittenResult,
+    folder: ResultFolder,
+    options: &Options,
+    stop: Option<&Stop>,
+) -> Result<(), Failure> {
     let published = match summary.files.is_empty() {
         true => Ok(None),
         false => folder.publish(fault.is_none()).map(Some),
@@ -153,7 +162,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     if let Some(fault) = fault {
         return Err(fault);
     }
-    match (published?, computed.collision.stop()) {
+    match (published?, stop) {
         (Some(place), Some(stop)) => {
             let kept =
                 format!("what was computed so far is in {}, marked incomplete", shown(&place));

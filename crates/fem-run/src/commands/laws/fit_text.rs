@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use fem::fit::{Estimate, InputPart, Profile, Robustness};
+use fem::fit::{Estimate, Fit, InputPart, Model, Profile, Robustness};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem::measured::Restitutions;
 use fem_case::UncertainInput;
 use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::End;
-use fem_laws::LawFamily;
+use fem_laws::{LawFamily, LawParameter};
 
 use fem_report::law_figures::evidence;
 
@@ -63,9 +63,36 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         show(slowest, "m/s"),
         show(fastest, "m/s"),
     );
+    text += &parameters(fitted, law);
+    text += "\n";
+    text += &errors_by_inputs(fitted);
+    for i in 0..fit.estimates.len() {
+        for j in 0..i {
+            let (first, second) = (fit.estimates[j].key, fit.estimates[i].key);
+            text += &format!("correlation of {first} and {second}: {:.4}\n", fit.correlation[i][j]);
+        }
+    }
+    let unit = if problem.has_uncertainties() { " of the uncertainties" } else { "" };
+    let freedom = fit.degrees_of_freedom;
+    let plural = if freedom == 1 { "degree" } else { "degrees" };
+    text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
+    if let Some(robustness) = &fit.robustness {
+        text += &weighted_down(fitted.data, robustness, &fitted.weights());
+    }
+    let rates = model.decay_rates(fit.values[0]);
+    let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
+    if model.family() == LawFamily::Ting && others.count() > 0 {
+        text += "decay_rate is the largest one; the others keep their ratio to it\n";
+    }
+    text + &compared(fitted, unit)
+}
+
+/// Returns the table of the law's parameters: the fitted ones with their errors, and the held ones.
+fn parameters(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
+    let LawFit { problem, fit, .. } = fitted;
     let level = 100.0 * fitted.confidence;
     let header = format!("|>best value|>standard error|{level} % interval|by profile");
-    let rows = model.family().parameters().iter().enumerate().map(|(index, parameter)| {
+    let rows = problem.model.family().parameters().iter().enumerate().map(|(index, parameter)| {
         let shown = |value: f64| show_value(value, parameter.unit);
         let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
         let [error, interval, profile] = match estimate {
@@ -85,10 +112,14 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         };
         [parameter.key.to_string(), shown(fit.values[index]), error, interval, profile]
     });
-    text += &headed(&header, rows);
-    text += "\n";
-    for (j, estimate) in fit.estimates.iter().enumerate().filter(|_| !fitted.inputs.is_empty()) {
-        let unit = model.family().parameters()[estimate.index].unit;
+    headed(&header, rows)
+}
+
+/// Returns the standard error of each parameter by the data and by each uncertain input.
+fn errors_by_inputs(fitted: &LawFit<'_>) -> String {
+    let family = fitted.problem.model.family();
+    let row = |(j, estimate): (usize, &Estimate)| {
+        let unit = family.parameters()[estimate.index].unit;
         let shown = |value: f64| show_value(fitted.scale_of(estimate) * value, unit);
         let data = estimate.error_of_data.map_or("?".to_string(), |it| show_value(it, unit));
         let part = |part: &InputPart| match part.changes[j].abs() {
@@ -98,40 +129,27 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
             _ => format!(", no fit with {}", relative(&part.input)),
         };
         let parts: String = fitted.inputs.iter().map(part).collect();
-        text += &format!("standard error of {}: {data} by the data{parts}\n", estimate.key);
-    }
-    for i in 0..fit.estimates.len() {
-        for j in 0..i {
-            let (first, second) = (fit.estimates[j].key, fit.estimates[i].key);
-            text += &format!("correlation of {first} and {second}: {:.4}\n", fit.correlation[i][j]);
-        }
-    }
-    let unit = if problem.has_uncertainties() { " of the uncertainties" } else { "" };
-    let freedom = fit.degrees_of_freedom;
-    let plural = if freedom == 1 { "degree" } else { "degrees" };
-    text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
-    if let Some(robustness) = &fit.robustness {
-        text += &weighted_down(fitted.data, robustness, &fitted.weights());
-    }
-    let rates = model.decay_rates(fit.values[0]);
-    let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
-    if model.family() == LawFamily::Ting && others.count() > 0 {
-        text += "decay_rate is the largest one; the others keep their ratio to it\n";
-    }
-    for (model, fit) in &fitted.compared {
+        format!("standard error of {}: {data} by the data{parts}\n", estimate.key)
+    };
+    let has_inputs = !fitted.inputs.is_empty();
+    fitted.fit.estimates.iter().enumerate().filter(|_| has_inputs).map(row).collect()
+}
+
+/// Returns a line for each law that is compared.
+fn compared(fitted: &LawFit<'_>, unit: &str) -> String {
+    let parameter = |fit: &Fit, parameter: &LawParameter, value: f64| {
+        let estimate = fit.estimates.iter().find(|own| own.key == parameter.key);
+        let is_at_bound = estimate.is_some_and(|own| own.is_at_bound);
+        let bound = if is_at_bound { " (at its bound)" } else { "" };
+        format!("{} {}{bound}", parameter.key, show_value(value, parameter.unit))
+    };
+    let line = |(model, fit): &(Model, Fit)| {
         let parameters = model.family().parameters().iter().zip(&fit.values);
-        let values: Vec<_> = parameters
-            .map(|(parameter, value)| {
-                let estimate = fit.estimates.iter().find(|own| own.key == parameter.key);
-                let is_at_bound = estimate.is_some_and(|own| own.is_at_bound);
-                let bound = if is_at_bound { " (at its bound)" } else { "" };
-                format!("{} {}{bound}", parameter.key, show_value(*value, parameter.unit))
-            })
-            .collect();
+        let values: Vec<_> = parameters.map(|(it, value)| parameter(fit, it, *value)).collect();
         let name = model.family().name();
-        text += &format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "));
-    }
-    text
+        format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "))
+    };
+    fitted.compared.iter().map(line).collect()
 }
 
 /// Returns an input with its relative uncertainty, `body.1.plate.thickness ± 2 %`.
