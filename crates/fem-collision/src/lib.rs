@@ -28,6 +28,9 @@ mod request;
 mod result;
 mod run;
 
+/// The name of the program in summaries and checkpoints, which identifies their folders.
+pub const PROGRAM: &str = "fem-run";
+
 pub use fields::{
     BodyFields, ContactProfile, ContactProfilePoint, Probe, ProbeRequest, Probes, SmallStrain,
     Snapshot, SnapshotInstant, SnapshotRequest, StressField, StressRecovery, did_not_occur, evenly,
@@ -39,11 +42,12 @@ pub use request::{
 };
 pub use result::{
     BodyResult, Bounce, CandidateRegion, Collision, Ending, MAX_RESIDUAL, QuantityOfInterest,
-    RestState, STAY_TOGETHER, StaticContact, Stop,
+    RestState, STAY_TOGETHER, StaticContact, Status, Stop,
 };
 pub use run::{
     Account, BalanceSide, DeepestOverlap, DissipatedEnergies, EnergyLedger, ForceNoise, ForcePulse,
     History, HistoryRow, Monitor, PEAK_WINDOW, Phase, PostContactVibration, Progress, PulsePeaks,
     RESOLVING_ELEMENTS, RelativeMotion, RestCriterion, RowKind, STEPS_BETWEEN_REPORTS,
-    SamplingInterval, ShownIn, StepInstant, longest_at_pole, nan_aware_max, nan_aware_max_abs,
+    SamplingInterval, ShownIn, StepInstant, energy_key, longest_at_pole, nan_aware_max,
+    nan_aware_max_abs,
 };

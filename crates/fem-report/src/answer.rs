@@ -19,7 +19,7 @@ pub fn error_parts(summary: &Value, quantity: QuantityOfInterest) -> Parts {
 
 /// Returns the status of a quantity.
 pub fn status(summary: &Value, quantity: QuantityOfInterest) -> Status {
-    Status::of(summary[quantity.key()].as_f64(), &error_parts(summary, quantity))
+    Status::of(summary[quantity.key()].as_f64(), error_parts(summary, quantity).model)
 }
 
 /// Returns the scale of relative errors: 1 for the restitution, the value itself for all others.

@@ -6,7 +6,7 @@
 //!                                    plan, effects, cost         quantities, ending
 //! ```
 //!
-//! Crate `fem-simulation` computes one collision, `fem-study` many. Their items are re-exported here, with those of the
+//! Crate `fem-simulation` computes one collision, `fem-study` many, and `fem-data` reads measurements. Their items are re-exported here, with those of the
 //! crates below that a caller needs.
 //!
 //! Without the feature `files` (on by default) the library accesses no files: mesh files of a case are rejected, and the
@@ -25,9 +25,26 @@ pub use fem_simulation::{
     tolerance_of,
 };
 pub use fem_study::sweep::sweep;
-pub use fem_study::{accuracy, calibrate, fit, laws, measured, sweep};
-#[cfg(feature = "csv")]
-pub use fem_study::{records, relaxation};
+pub use fem_study::{accuracy, calibrate, laws, sweep};
+
+pub use fem_data::relaxation;
+
+/// Fits to restitutions, the inputs of DEM codes and Newton's cradle.
+pub mod fit {
+    pub use fem_data::estimate::*;
+    pub use fem_data::{dem, instruments::cradle};
+}
+
+/// Tables and other texts with measurements.
+pub mod measured {
+    pub use fem_data::instruments::cradle_trials;
+    pub use fem_data::table::*;
+}
+
+/// Records of bouncing balls.
+pub mod records {
+    pub use fem_data::instruments::*;
+}
 
 pub use fem_case::{
     Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,

@@ -8,4 +8,4 @@ pub use collision::{
     BodyResult, Bounce, CandidateRegion, Collision, MAX_RESIDUAL, RestState, StaticContact,
 };
 pub use ending::{Ending, STAY_TOGETHER, Stop};
-pub use quantity_of_interest::QuantityOfInterest;
+pub use quantity_of_interest::{QuantityOfInterest, Status};

@@ -1,5 +1,7 @@
 //! Quantities of interest of a collision.
 
+use serde::{Deserialize, Serialize};
+
 use crate::result::Collision;
 
 /// A quantity of interest of a collision.
@@ -82,6 +84,38 @@ impl QuantityOfInterest {
         match self {
             Self::Restitution => 1.0,
             _ => limit.abs(),
+        }
+    }
+}
+
+/// The status of a number: whether it is the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// The number is the answer, within its error bar.
+    Computed,
+    /// A known effect is missing that moves the number by an unknown amount.
+    Bound,
+    /// There is no number.
+    Unknown,
+}
+
+impl Status {
+    /// Returns the status of a number with its model-form error.
+    pub fn of(number: Option<f64>, model_error: Option<f64>) -> Self {
+        match (number, model_error) {
+            (None, _) => Self::Unknown,
+            (Some(_), None) => Self::Bound,
+            (Some(_), Some(_)) => Self::Computed,
+        }
+    }
+
+    /// Returns the word of the status in a summary.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Computed => "computed",
+            Self::Bound => "bound",
+            Self::Unknown => "unknown",
         }
     }
 }

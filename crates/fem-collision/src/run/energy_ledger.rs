@@ -107,6 +107,11 @@ impl Account {
     }
 }
 
+/// Returns the key of an account in files, with its unit.
+pub fn energy_key(account: Account) -> String {
+    format!("{}_j", account.name())
+}
+
 /// Energy in each account, J, or power into each account, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLedger([Option<f64>; LINES.len()]);

@@ -10,7 +10,9 @@ mod rest_criterion;
 mod sampling_interval;
 mod step_instant;
 
-pub use energy_ledger::{Account, BalanceSide, DissipatedEnergies, EnergyLedger, ShownIn};
+pub use energy_ledger::{
+    Account, BalanceSide, DissipatedEnergies, EnergyLedger, ShownIn, energy_key,
+};
 pub use force_noise::ForceNoise;
 pub use history::{History, HistoryRow, RowKind};
 pub use monitor::{Monitor, Phase, Progress, STEPS_BETWEEN_REPORTS};

@@ -158,7 +158,7 @@ fn difference_text(
     quantity: QuantityOfInterest,
     shared: SharedErrors,
 ) -> String {
-    let is_computed = |it: &(f64, Parts)| Status::of(Some(it.0), &it.1) == Status::Computed;
+    let is_computed = |it: &(f64, Parts)| Status::of(Some(it.0), it.1.model) == Status::Computed;
     if !(is_computed(&own) && is_computed(&from)) {
         return "\u{2013}".to_string();
     }

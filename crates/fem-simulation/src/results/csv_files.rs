@@ -3,10 +3,12 @@
 use std::io::{self, Write};
 
 use fem_case::Scene;
-use fem_collision::{Account, Collision, ContactProfile, HistoryRow, ProbeRequest, Snapshot};
+use fem_collision::{
+    Account, Collision, ContactProfile, HistoryRow, ProbeRequest, Snapshot, energy_key,
+};
 
 use super::dent::dents;
-use super::energy::{energy_key, in_history};
+use super::energy::in_history;
 use super::snapshots::shown;
 use crate::simulation::Simulation;
 

@@ -1,6 +1,6 @@
 //! Keys, columns and order of the energy accounts in files. They follow from the table of [`Account`].
 
-use fem_collision::{Account, EnergyLedger, ShownIn};
+use fem_collision::{Account, EnergyLedger, ShownIn, energy_key};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The ledger at the end of a run, J; `None` is written as `null`.
@@ -43,11 +43,6 @@ impl Serialize for Accounts {
         }
         map.end()
     }
-}
-
-/// Returns the key of an account in files, with its unit.
-pub fn energy_key(account: Account) -> String {
-    format!("{}_j", account.name())
 }
 
 /// Returns the accounts that the summary of this ledger shows.

@@ -18,19 +18,19 @@ mod summarise;
 mod summary;
 
 pub use crate::error::ElasticNull;
-pub use crate::simulation::identity::PROGRAM;
 #[cfg(feature = "files")]
 pub use csv_files::{
     CONTACT_FILE, DENT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, dent_csv, has_contact,
     history_csv, probes_csv,
 };
 pub use dent::{DentProfile, DentSummary, dents};
-pub use energy::{Accounts, Energy, energy_key};
+pub use energy::{Accounts, Energy};
+pub use fem_collision::{PROGRAM, Status, energy_key};
 pub use measured::MeasuredSummary;
 pub use relaxation_band::SeriesTail;
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
-    PlateSummary, Quantities, RelaxationCoverage, RestSummary, SUMMARY_FILE, Side, Status, Summary,
+    PlateSummary, Quantities, RelaxationCoverage, RestSummary, SUMMARY_FILE, Side, Summary,
 };

@@ -1,17 +1,17 @@
 //! Builds the summary of a collision.
 
 use fem_collision::{
-    Account, Approach, BalanceSide, Bounce, Collision, Ending, EnergyLedger, QuantityOfInterest,
-    RestState,
+    Account, Approach, BalanceSide, Bounce, Collision, Ending, EnergyLedger, PROGRAM,
+    QuantityOfInterest, RestState, Status, energy_key,
 };
 use fem_laws::ImpactQuantities;
 
 use super::dent::{DentSummary, dents};
-use super::energy::{Accounts, Energy, energy_key};
+use super::energy::{Accounts, Energy};
 use super::measured::MeasuredSummary;
 use super::summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
-    PlateSummary, Quantities, RestSummary, Status, Summary,
+    PlateSummary, Quantities, RestSummary, Summary,
 };
 use super::uncertainty::uncertainty;
 use crate::effects::{AdhesionEffect, EffectDecision, EffectDecisions, FiniteStrain};
@@ -20,7 +20,7 @@ use crate::estimate::Estimate;
 use crate::estimate::plate_impact::PlateImpact;
 use crate::results::relaxation_band::least_coverage;
 use crate::simulation::Simulation;
-use crate::simulation::identity::{NUMERICS, PROGRAM};
+use crate::simulation::identity::NUMERICS;
 
 impl ComputedCollision {
     /// Returns all warnings about the collision.
@@ -62,7 +62,8 @@ impl Summary {
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision, &errors.decisions);
         let uncertainty = uncertainty(simulation, collision, errors, &quantities, &effects);
-        let status = |quantity| Status::of(quantities.number(quantity), &uncertainty.of(quantity));
+        let status =
+            |quantity| Status::of(quantities.number(quantity), uncertainty.of(quantity).model);
         Self {
             status: PerQuantity::by(status),
             uncertainty,

@@ -1,7 +1,7 @@
 //! `summary.json`: names, order and units of its keys.
 
 use fem_case::CaseFile;
-use fem_collision::QuantityOfInterest;
+use fem_collision::{QuantityOfInterest, Status};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::dent::DentSummary;
@@ -236,38 +236,6 @@ impl Side {
         match self {
             Self::AtMost => "≤",
             Self::AtLeast => "≥",
-        }
-    }
-}
-
-/// The status of a number: whether it is the answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// The number is the answer, within its error bar.
-    Computed,
-    /// A known effect is missing that moves the number by an unknown amount.
-    Bound,
-    /// There is no number.
-    Unknown,
-}
-
-impl Status {
-    /// Returns the status of a number with its error bar.
-    pub fn of(number: Option<f64>, parts: &Parts) -> Self {
-        match (number, parts.model) {
-            (None, _) => Self::Unknown,
-            (Some(_), None) => Self::Bound,
-            (Some(_), Some(_)) => Self::Computed,
-        }
-    }
-
-    /// Returns the word of the status in a summary.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Computed => "computed",
-            Self::Bound => "bound",
-            Self::Unknown => "unknown",
         }
     }
 }

@@ -3,12 +3,13 @@
 //! A line of JSON identifies the run; the restart state follows in [postcard](https://postcard.jamesmunns.com/wire-format).
 //! Numbers keep their bits.
 
+use fem_collision::PROGRAM;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
 use crate::models::stepper::RestartState;
-use crate::simulation::identity::{Identity, NUMERICS, PROGRAM};
+use crate::simulation::identity::{Identity, NUMERICS};
 
 /// Version of the format; others are not read.
 const FORMAT_VERSION: u32 = 1;

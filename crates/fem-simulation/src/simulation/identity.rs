@@ -14,9 +14,6 @@ use crate::simulation::Simulation;
 /// In a build from a registry, without the workspace, the versions of those crates stand for their sources.
 pub const NUMERICS: &str = env!("FEM_NUMERICS");
 
-/// The name of the program in summaries and checkpoints, which identifies their folders.
-pub const PROGRAM: &str = "fem-run";
-
 /// Bytes of a digest that go into a name: two of a million cases share one by a chance of 1e-7.
 const DIGEST_BYTES: usize = 8;
 

@@ -10,7 +10,7 @@ mod digest;
 
 use digest::{crates_below, digest};
 
-const ABOVE: [&str; 3] = ["fem-figure", "fem-study", "fem-run"];
+const ABOVE: [&str; 4] = ["fem-figure", "fem-data", "fem-study", "fem-run"];
 
 fn own() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

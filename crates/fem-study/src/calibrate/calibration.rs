@@ -1,11 +1,11 @@
 //! The calibration: a Prony series of a material from measured restitutions.
 
-use crate::fit::spectrum::{
+use fem_case::{Case, ModelChoice};
+use fem_data::estimate::spectrum::{
     Range, SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, moments, root_mean_square,
     speed_exponent,
 };
-use crate::fit::{FitError, InputPart, Robustness, SPEED};
-use fem_case::{Case, ModelChoice};
+use fem_data::estimate::{FitError, InputPart, Robustness, SPEED};
 use fem_material::PronyTerm;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -19,7 +19,7 @@ use super::settings::{CalibrationModel, Settings};
 use super::speed_span::ends;
 use super::target::Target;
 use super::warnings::{LARGE_ERROR, LARGE_MISFIT, misses};
-use crate::measured::{DataError, MeasuredPairs};
+use fem_data::table::{DataError, MeasuredPairs};
 
 /// Factor by which the relaxation times reach beyond the contact times. A term that is ten times slower or faster
 /// loses a tenth; one beyond differs from it in its weight only.
@@ -41,7 +41,7 @@ const MIN_WEIGHT: f64 = 1e-9;
 /// use fem_case::schema::{BodyTable, MaterialTable};
 /// use fem_case::{Case, CaseFile};
 /// use fem_study::calibrate::{Calibration, CalibrationModel, Settings};
-/// use fem_study::measured::Restitutions;
+/// use fem_data::table::Restitutions;
 ///
 /// let glass = MaterialTable::from_youngs_modulus_poissons_ratio("2390 kg/m^3", "63 GPa", 0.244);
 /// let lower = BodyTable::sphere("lower", "22.2 mm", "glass").approaching("0.5 m/s");

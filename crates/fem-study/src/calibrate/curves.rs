@@ -1,6 +1,6 @@
 //! Curves of restitutions for figures: the data, the best series and the single Maxwell term.
 
-use crate::fit::FitError;
+use fem_data::estimate::FitError;
 use fem_material::PronyTerm;
 
 use super::calibration::Calibration;

@@ -4,9 +4,9 @@
 //! condensed region are those of the largest contact (instantaneous moduli); elements are small
 //! enough for the smallest contact, unless the case gives their size.
 
-use crate::fit::FitError;
 use fem_case::engineering::show;
 use fem_case::{Body, Case, CaseError};
+use fem_data::estimate::FitError;
 use fem_laws::HertzImpact;
 use fem_material::PronyTerm;
 
@@ -16,7 +16,7 @@ use super::settings::CalibrationModel;
 use super::speed_span::{SpeedDoubt, SpeedSpan};
 use super::target::Target;
 use crate::laws::plate_of;
-use crate::measured::{MeasuredPair, MeasuredPairs};
+use fem_data::table::{MeasuredPair, MeasuredPairs};
 use fem_simulation::{Condensed, Model, SharedModels};
 
 /// The key of the element size, which the error names if no mesh can be made.

@@ -1,12 +1,12 @@
 //! Errors of a calibration.
 
-use crate::fit::FitError;
 use fem_case::CaseError;
 use fem_case::engineering::show;
+use fem_data::estimate::FitError;
 use fem_laws::LawError;
 
 use super::flow::FlowFit;
-use crate::measured::DataError;
+use fem_data::table::DataError;
 
 /// An error in the case, data or settings of a calibration, or a collision that fails.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

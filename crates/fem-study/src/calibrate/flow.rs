@@ -4,13 +4,13 @@ use fem_case::Case;
 use fem_laws::{HertzImpact, LawFamily};
 
 use super::fault::CalibrationFault;
-use crate::fit::FitError;
-use crate::fit::least_squares::minimise;
-use crate::fit::robust::{Fitted, reweight};
-use crate::fit::spectrum::MODEL_ERROR;
-use crate::fit::{Model, Point};
 use crate::laws::ChosenLaw;
-use crate::measured::MeasuredPairs;
+use fem_data::estimate::FitError;
+use fem_data::estimate::minimise;
+use fem_data::estimate::spectrum::MODEL_ERROR;
+use fem_data::estimate::{Fitted, reweight};
+use fem_data::estimate::{Model, Point};
+use fem_data::table::MeasuredPairs;
 
 /// Yield strengths that are tried first, over the largest pressure of Hertz' contacts: half decades.
 const FIRST_TRIED: std::ops::RangeInclusive<i32> = -8..=0;

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::fit::{FitError, Robustness};
+use fem_data::estimate::{FitError, Robustness};
 use fem_laws::bisection::falling_zero;
 use fem_material::PronyTerm;
 

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The case gives bodies and instantaneous moduli. Each pair of bodies has one model for all of its
-//! speeds; `crate::fit::spectrum` finds the weights. A measured relaxation of the case may be its prior knowledge (`prior`).
+//! speeds; `fem_data::estimate::spectrum` finds the weights. A measured relaxation of the case may be its prior knowledge (`prior`).
 
 mod calibration;
 mod curves;
@@ -21,7 +21,7 @@ mod pair_model;
 mod prior;
 mod settings;
 mod speed_span;
-pub(crate) mod stored_calibration;
+mod stored_calibration;
 mod target;
 mod warnings;
 
@@ -36,4 +36,4 @@ pub use settings::{CalibrationModel, SettingNames, Settings};
 pub use speed_span::SpeedDoubt;
 pub use target::Target;
 
-pub use crate::fit::spectrum::SpectrumFit;
+pub use fem_data::estimate::spectrum::SpectrumFit;

@@ -2,9 +2,9 @@
 
 use std::fmt::Display;
 
-use crate::fit::FitError;
 use fem_case::Scene;
 use fem_collision::Stop;
+use fem_data::estimate::FitError;
 use fem_laws::{FiniteSize, FreePlate, HertzImpact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::{Material, PronySeries, PronyTerm};
 use rayon::prelude::*;

@@ -16,8 +16,8 @@ use fem_simulation::results::SeriesTail;
 use nalgebra::{DMatrix, DVector};
 
 use super::target::Target;
-use crate::fit::spectrum::WeightPrior;
-use crate::fit::spectrum::bounded::Linear;
+use fem_data::estimate::spectrum::WeightPrior;
+use fem_data::estimate::spectrum::bounded::Linear;
 
 /// The smallest relative uncertainty of a loss: instruments have none below.
 const MIN_UNCERTAINTY: f64 = 1e-3;

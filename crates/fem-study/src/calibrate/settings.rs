@@ -21,7 +21,7 @@ pub struct Settings {
     pub regularisation: Option<f64>,
     /// Confidence level of the ranges, in (0, 1).
     pub confidence: f64,
-    /// Whether data far from the curve count little ([`crate::fit::Robustness`]).
+    /// Whether data far from the curve count little ([`fem_data::estimate::Robustness`]).
     pub is_robust: bool,
     /// Whether the measured relaxation of the case is prior knowledge: its weights move within their uncertainties. The
     /// relaxation times are then those of the case, no data are weighted down, and the regularisation is 0 by default.

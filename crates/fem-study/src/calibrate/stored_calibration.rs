@@ -1,8 +1,9 @@
 //! The stored forms of a calibration: `calibrate.json` and `relaxation.toml`.
 
 use fem_case::schema::{ActsOn, RelaxationTable, TermTable};
-use fem_material::{PronyTerm, ShiftLaw};
-use fem_simulation::results::PROGRAM;
+use fem_collision::PROGRAM;
+use fem_data::relaxation::{shift_toml, toml_key};
+use fem_material::PronyTerm;
 use serde_json::{Value, json};
 
 use super::calibration::Calibration;
@@ -10,7 +11,7 @@ use super::curves::Abscissa;
 use super::experiment::Experiment;
 use super::maxwell::Beyond;
 use super::prior::Prior;
-use crate::fit::spectrum::{Combination, Range, Share};
+use fem_data::estimate::spectrum::{Combination, Range, Share};
 
 /// Names of the moments of the weights.
 const MOMENTS: [&str; 3] = ["weight_sum", "initial_decay_rate_1_s", "viscous_time_s"];
@@ -198,30 +199,5 @@ impl Calibration {
             text += &format!("shift = {}\n", shift_toml(law));
         }
         text
-    }
-}
-
-/// Returns a name as a key of TOML.
-pub(crate) fn toml_key(name: &str) -> String {
-    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    match !name.is_empty() && name.chars().all(is_bare) {
-        true => name.to_string(),
-        // A string of JSON is one of TOML.
-        false => serde_json::Value::from(name).to_string(),
-    }
-}
-
-/// Returns a shift law as TOML.
-pub(crate) fn shift_toml(law: &ShiftLaw) -> String {
-    match law {
-        ShiftLaw::Wlf { c1, c2 } => format!("{{ wlf = {{ c1 = {c1:.5}, c2 = {c2:.4} }} }}"),
-        ShiftLaw::Arrhenius { activation_temperature } => {
-            format!("{{ arrhenius = {{ activation_temperature = {activation_temperature:.1} }} }}")
-        }
-        ShiftLaw::Table(rows) => {
-            let rows =
-                rows.iter().map(|(temperature, log10)| format!("[{temperature:.2}, {log10:.4}]"));
-            format!("{{ table = [{}] }}", rows.collect::<Vec<_>>().join(", "))
-        }
     }
 }

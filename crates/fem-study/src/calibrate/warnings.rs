@@ -1,8 +1,8 @@
 //! Warnings about a series.
 
-use crate::fit::Robustness;
-use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
 use fem_case::engineering::show;
+use fem_data::estimate::Robustness;
+use fem_data::estimate::spectrum::{SpectrumFit, SpeedExponent};
 
 use super::calibration::{Calibration, UNUSED_STEPS};
 use super::pair_model::STEPS_PER_CONTACT_TIME;

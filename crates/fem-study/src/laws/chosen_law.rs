@@ -1,11 +1,11 @@
 //! The contact law of a case's bodies, and its values from `[model]` and from the caller.
 
-use crate::fit::{FitError, Model, Point, Problem};
 use fem_case::{Body, Case, ModelChoice, PlateSupport, Scene};
+use fem_data::estimate::{FitError, Model, Point, Problem};
 use fem_laws::{EndRule, FreePlate, KeyNeed, LawFamily, LawInput, LawParameter, ParameterRole};
 
 use super::law_fault::LawFault;
-use super::parameter::{check_value, find_parameter, loss_parameter};
+use fem_data::estimate::{check_value, find_parameter, loss_parameter};
 use fem_simulation::{Reduced, free_plate};
 
 /// Returns the plate of a scene that bends under the contact.

@@ -2,10 +2,10 @@
 
 use std::mem::discriminant;
 
-use crate::fit::Point;
 use fem_case::engineering::show;
 use fem_case::schema::{HertzTable, ModelTable, TingTable};
 use fem_case::{Body, Case, ModelChoice, Scene, WorkOfAdhesion};
+use fem_data::estimate::Point;
 use fem_laws::{Adhesion, LawFamily};
 use fem_simulation::{
     FlowingImpact, Reduced, bounds_of_closed_forms, computed_flow, restitution_with_adhesion,

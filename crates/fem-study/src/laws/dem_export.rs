@@ -1,11 +1,11 @@
 //! The laws of DEM codes that fit e(v) and T(v), and their ranges of validity.
 
-use crate::fit::dem::{
-    DentingSprings, Export, HuntCrossley, Sphere, fit_dissipation, fit_springs, restitution_of,
-};
-use crate::fit::{FitError, Model, Outcome, Point, Problem};
 use fem_case::schema::BodyTable;
 use fem_case::{Body, Case, Scene};
+use fem_data::dem::{
+    DentingSprings, Export, HuntCrossley, Sphere, fit_dissipation, fit_springs, restitution_of,
+};
+use fem_data::estimate::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily};
 

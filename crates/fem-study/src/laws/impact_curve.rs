@@ -1,13 +1,13 @@
 //! Restitution and contact time over speed, to which the laws of other codes are fitted.
 
-use crate::fit::{FitError, Point};
 use fem_case::Scene;
 use fem_case::engineering::show;
+use fem_data::estimate::{FitError, Point};
 use fem_laws::{HertzImpact, LawFamily, Pair};
 
 use super::law_fault::LawFault;
 use super::stored_fit::{RestitutionBand, StoredFit};
-use crate::measured::{ACCEPTED_BOUNDS, DataError, Restitutions};
+use fem_data::table::{ACCEPTED_BOUNDS, DataError, Restitutions};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;

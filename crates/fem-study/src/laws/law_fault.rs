@@ -1,11 +1,11 @@
 //! Errors of the laws of a case.
 
-use crate::fit::FitError;
 use fem_case::CaseError;
+use fem_data::estimate::FitError;
 use fem_laws::LawError;
 
-use super::parameter::ParameterError;
-use crate::measured::DataError;
+use fem_data::estimate::ParameterError;
+use fem_data::table::DataError;
 
 /// An error in a law, in its data, or in a request.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

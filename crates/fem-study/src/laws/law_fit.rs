@@ -1,18 +1,18 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
-use crate::fit::{
-    Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness, SPEED,
-};
 use fem_case::Case;
 use fem_case::engineering::number;
 use fem_case::schema::End;
+use fem_data::estimate::{
+    Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness, SPEED,
+};
 use fem_laws::{LawFamily, ParameterRole};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
 use super::law_ranking::LawRanking;
-use super::parameter::loss_parameter;
-use crate::measured::Restitutions;
+use fem_data::estimate::loss_parameter;
+use fem_data::table::Restitutions;
 
 /// Number of values of a profile.
 const GRID: usize = 25;

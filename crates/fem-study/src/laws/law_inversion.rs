@@ -1,14 +1,14 @@
 //! The parameter of a law that gives a wanted restitution at one speed.
 
-use crate::fit::cradle::Measured;
-use crate::fit::{InputPart, Inversion, Model, Point, Problem, SPEED, invert};
 use fem_case::{Case, UncertainInput, central_change};
+use fem_data::estimate::{InputPart, Inversion, Model, Point, Problem, SPEED, invert};
+use fem_data::table::Measured;
 use fem_laws::{LawFamily, LawParameter, ParameterRole};
 use serde_json::{Value, json};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
-use super::parameter::{find_parameter, loss_parameter};
+use fem_data::estimate::{find_parameter, loss_parameter};
 
 /// A law with the values of one parameter that give a restitution.
 #[derive(Clone, Debug, PartialEq)]

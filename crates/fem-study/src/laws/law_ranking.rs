@@ -10,17 +10,17 @@
 //!
 //! with −2 ln L = Σ r² and q = p if the data have uncertainties, and −2 ln L = N ln(Σ r²/N) and
 //! q = p + 1 otherwise, where the scatter counts as a parameter. Robust fits have the likelihood of their scatter
-//! ([`crate::fit::Robustness`]) and q = p + 1. Weights w are shares of the
+//! ([`fem_data::estimate::Robustness`]) and q = p + 1. Weights w are shares of the
 //! evidence among the laws that were fitted; none of them needs to be right.
 
-use crate::fit::{Fit, Model};
 use fem_case::Case;
+use fem_data::estimate::{Fit, Model};
 use fem_laws::{EndRule, LawFamily};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
-use super::parameter::loss_parameter;
-use crate::measured::Restitutions;
+use fem_data::estimate::loss_parameter;
+use fem_data::table::Restitutions;
 
 /// Confidence level of the fits' intervals, which are not used.
 const CONFIDENCE: f64 = 0.95;

@@ -1,18 +1,18 @@
 //! Contact laws: fitted to restitutions, inverted for one restitution, ranked, and exported to DEM codes.
 //!
 //! ```text
-//! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ stored
-//! keys and                a case's    ├─ law_inversion
-//! values as               law, what   ├─ law_ranking
-//! text                    is given    └─ impact_curve ─ dem_export ─┬─ stored
-//!                                        e(v), T(v)                └─ pair_export
+//! law_fault ─ chosen_law ─┬─ law_fit ─ stored
+//!             a case's    ├─ law_inversion
+//!             law, what   ├─ law_ranking
+//!             is given    └─ impact_curve ─ dem_export ─┬─ stored
+//!                            e(v), T(v)                └─ pair_export
 //! ```
 //!
 //! ```
 //! use fem_case::schema::{BodyTable, MaterialTable};
 //! use fem_case::{Case, CaseFile};
 //! use fem_study::laws::{ChosenLaw, DemExport, ImpactCurve, LawFamily, LawFit, LawInversion};
-//! use fem_study::measured::Restitutions;
+//! use fem_data::table::Restitutions;
 //!
 //! let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
 //! let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.1 m/s");
@@ -49,21 +49,22 @@ mod law_fit;
 mod law_inversion;
 mod law_ranking;
 mod pair_export;
-mod parameter;
 mod stored;
 mod stored_fit;
 
 pub(crate) use chosen_law::plate_of;
 pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};
+pub use fem_data::estimate::{
+    ParameterError, check_value, find_parameter, loss_parameter, parse_value,
+};
 pub use impact_curve::ImpactCurve;
 pub use law_fault::LawFault;
 pub use law_fit::LawFit;
 pub use law_inversion::{LawInversion, needs_more};
 pub use law_ranking::{LawRanking, RankedLaw};
 pub use pair_export::{FittedPair, PairExport, PairNumbers};
-pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
 pub use stored_fit::{RestitutionBand, StoredFit};
 
-pub use crate::fit::FitError;
+pub use fem_data::estimate::FitError;
 pub use fem_laws::{EndRule, LawFamily};

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::fit::FitError;
-use crate::fit::dem::{Export, Grain, PairOfGrains, Sphere, grouped};
 use fem_case::schema::SphereTable;
 use fem_case::{Case, library, nearest};
+use fem_data::dem::{Export, Grain, PairOfGrains, Sphere, grouped};
+use fem_data::estimate::FitError;
 use serde::Serialize;
 
 use super::dem_export::DemExport;

@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 use super::dem_export::DemExport;
 use super::law_fit::LawFit;
 use super::stored_fit::bodies;
-use crate::fit::dem::{Snippet, Sphere, restitution_of};
-use crate::fit::{Fit, Model, Point, Profile, ProfilePoint};
+use fem_data::dem::{Snippet, Sphere, restitution_of};
+use fem_data::estimate::{Fit, Model, Point, Profile, ProfilePoint};
 
 impl LawFit<'_> {
     /// Returns the stored form of the fit in SI units; `case` is the case's name.

@@ -10,8 +10,8 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::chosen_law::{ChosenLaw, model_of};
 use super::law_fault::LawFault;
-use crate::fit::{Model, Point, Problem};
-use crate::measured::DataError;
+use fem_data::estimate::{Model, Point, Problem};
+use fem_data::table::DataError;
 
 /// Largest relative difference of two numbers of equal bodies, which were written and read.
 const SAME: f64 = 1e-9;

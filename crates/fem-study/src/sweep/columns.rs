@@ -1,78 +1,12 @@
 //! The columns of `sweep.csv` that come from a member's summary, and their values.
 
-use std::sync::LazyLock;
-
-use fem_collision::{Account, QuantityOfInterest, ShownIn};
+use fem_collision::{Account, ShownIn, energy_key};
+use fem_data::table::{COLUMNS, STATUS, UNCERTAINTIES, energy_column};
 use serde_json::Value;
 
-use fem_simulation::results::energy_key;
-
-/// Columns before the accounts of energy.
-const FIRST: [&str; 14] = [
-    "restitution",
-    "contact_time_s",
-    "peak_force_n",
-    "peak_force_raw_n",
-    "max_approach_m",
-    "max_contact_radius_m",
-    "peak_pressure_pa",
-    "contact_episodes",
-    "hertz_restitution",
-    "hertz_contact_time_s",
-    "hertz_peak_force_n",
-    "hertz_max_approach_m",
-    "hertz_max_contact_radius_m",
-    "hertz_peak_pressure_pa",
-];
-/// Columns after the accounts of energy.
-const LAST: [&str; 17] = [
-    "energy_residual_relative",
-    "dent_depth_m",
-    "dent_radius_m",
-    "dent_max_plastic_strain",
-    "adhesion_sticking_speed_m_s",
-    "adhesion_sticks",
-    "plate_lambda",
-    "plate_regime",
-    "momentum_residual_relative",
-    "elements",
-    "time_step_s",
-    "steps",
-    "element_updates",
-    "radius_and_pressure",
-    "complete",
-    "stopped_because",
-    "warnings",
-];
-
-/// Prefix of a column of the summary's `uncertainty`, and its part.
-const UNCERTAINTIES: [(&str, &str); 3] = [
-    ("uncertainty_discretisation_", "discretisation"),
-    ("uncertainty_model_", "model"),
-    ("uncertainty_input_", "input"),
-];
-/// Ending of a column of the summary's `status`, after the quantity.
-const STATUS: &str = "_status";
 /// Beginnings of columns that a table has only if a member has a value there.
 const OPTIONAL: [&str; 5] =
     ["uncertainty_input_", "adhesion_", "plate_", "energy_locked_in_j", "dent_"];
-
-/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `plate_` and `uncertainty_` are the
-/// summary's objects of that name, the last one with the part before the quantity, `_status` ends the columns of its status,
-/// and `dent_` is the first of its dents. The cost of the run (`cost`) differs from run to run and stays in the member's
-/// summary.
-pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
-    let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
-    let accounts = Account::all().map(|account| column_of(&energy_key(account)));
-    let energies = [column_of("initial_j")].into_iter().chain(accounts);
-    let energies = energies.chain(["locked_in_j", "residual_j"].map(column_of));
-    let parts = |quantity: QuantityOfInterest| {
-        UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()))
-    };
-    let status = QuantityOfInterest::ALL.into_iter().map(|it| format!("{}{STATUS}", it.key()));
-    let uncertainties = QuantityOfInterest::ALL.into_iter().flat_map(parts);
-    own(&FIRST).chain(status).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
-});
 
 /// The columns of a table of summaries: all except the optional ones that no summary has.
 #[derive(Clone, Debug)]
@@ -84,7 +18,7 @@ pub struct Columns {
 impl Default for Columns {
     fn default() -> Self {
         let energies = Account::all().filter(|account| account.shown() == ShownIn::WhereFilled);
-        let energies = energies.map(|account| column_of(&energy_key(account)));
+        let energies = energies.map(|account| energy_column(&energy_key(account)));
         let is_optional = |column: &&String| OPTIONAL.iter().any(|start| column.starts_with(start));
         Self { absent: energies.chain(COLUMNS.iter().filter(is_optional).cloned()).collect() }
     }
@@ -100,11 +34,6 @@ impl Columns {
     pub fn names(&self) -> Vec<&'static str> {
         COLUMNS.iter().filter(|column| !self.absent.contains(column)).map(String::as_str).collect()
     }
-}
-
-/// Returns the column of a key of the summary's energies.
-fn column_of(energy_key: &str) -> String {
-    format!("energy_{energy_key}")
 }
 
 /// Endings of column names and their units; if two end the same name, the longer one comes first.

@@ -112,7 +112,6 @@ impl Members for [Case] {
 ///
 /// # Errors
 /// As [`Sweep::load`].
-#[cfg(feature = "csv")]
 pub fn load(path: &std::path::Path, overrides: &[String]) -> Result<Sweep, CaseError> {
-    Sweep::load(path, overrides, &crate::measured::rows_below)
+    Sweep::load(path, overrides, &fem_data::table::rows_below)
 }

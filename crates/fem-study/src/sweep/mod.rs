@@ -20,9 +20,8 @@ mod runner;
 mod variations;
 
 pub use check::{Checked, check, check_some};
-pub use columns::{COLUMNS, Columns, column_unit, column_words, key_column};
+pub use columns::{Columns, column_unit, column_words, key_column};
 pub use key_numbers::{KeyNumbers, NumberColumn};
-#[cfg(feature = "csv")]
 pub use members::load;
 pub use members::{Member, Members};
 pub use row::Row;
@@ -32,3 +31,4 @@ pub use runner::{Observer, Runner, most_expensive_first};
 pub use variations::{Variations, sweep};
 
 pub use fem_case::Sweep;
+pub use fem_data::table::COLUMNS;

@@ -2,12 +2,12 @@
 
 use fem_case::schema::{self, BodyTable, MaterialTable, SceneTable};
 use fem_case::{Case, CaseFile};
+use fem_data::estimate::FitError;
+use fem_data::table::Restitutions;
 use fem_material::{ActsOn, PronyTerm};
 use fem_study::calibrate::{
     Beyond, Calibration, CalibrationFault, CalibrationModel, Maxwell, Settings, Target,
 };
-use fem_study::fit::FitError;
-use fem_study::measured::Restitutions;
 
 fn case(lower: &str, upper: &str) -> Case {
     let material = || MaterialTable::from_youngs_modulus_poissons_ratio(2390.0, "63 GPa", 0.244);

@@ -2,12 +2,4 @@
 
 mod accuracy;
 mod calibrate;
-mod common;
-mod cradle;
-mod dem;
-mod fits;
-mod inverse;
-mod measured;
-mod records;
-mod relaxation;
-mod spectrum;
+mod pair_export;

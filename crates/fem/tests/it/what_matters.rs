@@ -51,7 +51,7 @@ fn check_numbers(of: &str, summary: &fem::Summary) {
     for quantity in QuantityOfInterest::ALL {
         let (status, parts) = (summary.status.of(quantity), summary.uncertainty.of(quantity));
         let number = summary.collision.number(quantity);
-        assert_eq!(status, Status::of(number, &parts), "{of}: {quantity:?}");
+        assert_eq!(status, Status::of(number, parts.model), "{of}: {quantity:?}");
         assert!(parts.bound.is_none() || status == Status::Bound, "{of}: {quantity:?}");
     }
     let parts = summary.uncertainty.of(QuantityOfInterest::Restitution);

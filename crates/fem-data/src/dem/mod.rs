@@ -1,0 +1,470 @@
+//! Input for codes of the discrete element method, and the restitution that each code makes of it.
+//!
+//! Codes interpret an entered restitution in three ways:
+//!
+//! - The contact ends at zero overlap, and the dashpot pulls at the end: LAMMPS without `limit_damping`, LIGGGHTS
+//!   without `limitForce on`, MercuryDPM, Lethe, MFIX-DEM.
+//! - The contact ends at zero force: YADE, MuJoCo, Drake, and LAMMPS and LIGGGHTS with those keywords.
+//! - An approximate formula: LAMMPS' `tsuji`, YADE's Hertz–Mindlin `en`, MFIX's `HERTZIAN`.
+//!
+//! `entries` has the formulas of each code and their sources, `snippets.txt` the texts.
+
+mod entries;
+mod grains;
+
+pub use entries::{
+    TsujiVersion, characteristic_velocity, dissipation_of, fit_dissipation, fit_springs,
+    hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry,
+    tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
+};
+pub use grains::{Grain, PairOfGrains, grain_snippets, grouped};
+
+use std::collections::BTreeMap;
+
+use fem_laws::laws::linear_from_restitution;
+use fem_laws::{EndRule, LawError, Pair};
+use fem_material::Material;
+use fem_material::engineering::number;
+
+/// The texts of all snippets, whose format stands at their beginning.
+const SNIPPETS: &str = include_str!("snippets.txt");
+/// Name of the table of the confidence band, beside the snippets.
+pub const BAND_FILE: &str = "restitution_band.csv";
+/// Longest line of a comment, in characters.
+const LONGEST_LINE: usize = 110;
+/// The comment for codes that use the entries of 1 and 2 for 1 with 1 and 2 with 2 too.
+const UNLIKE: &str = "# Fitted for contacts of 1 with 2 alone: 1 with 1 and 2 with 2 are other pairs, which want an\n\
+                      # export each; all at once: fem-run export CASE --diameters D1,D2.\n";
+
+/// A sphere, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sphere {
+    /// Diameter D, m.
+    pub diameter: f64,
+    /// Density ρ, kg/m³.
+    pub density: f64,
+    /// Instantaneous Young's modulus, Pa.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio ν.
+    pub poissons_ratio: f64,
+}
+
+/// A dashpot of Hunt & Crossley on a linear spring, as Drake has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HuntCrossley {
+    /// Dissipation d, s/m.
+    pub dissipation: f64,
+    /// √(Σ (e − e_i)²/N) over all data.
+    pub rms: f64,
+    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
+    pub validity: [f64; 3],
+}
+
+impl HuntCrossley {
+    /// The dashpot of bodies that lose nothing.
+    pub const LOSSLESS: Self = Self { dissipation: 0.0, rms: 0.0, validity: [0.0; 3] };
+}
+
+/// Luding's springs without adhesion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DentingSprings {
+    /// Stiffness of the loading k₁, N/m.
+    pub loading: f64,
+    /// Largest stiffness of the rebound k_p over k₁.
+    pub ratio: f64,
+    /// Plasticity depth φ_f, over the reduced diameter.
+    pub depth: f64,
+    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
+    pub validity: [f64; 3],
+}
+
+/// The fitted laws and the data they were fitted to: the content of all snippets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Export {
+    /// The origin of the laws, one line.
+    pub title: String,
+    /// The two spheres, or the one that strikes a rigid wall.
+    pub spheres: Vec<Sphere>,
+    /// The spheres as a pair.
+    pub pair: Pair,
+    /// Smallest and largest speed of the data, m/s.
+    pub speeds: (f64, f64),
+    /// Largest error of e inside a range of validity.
+    pub tolerance: f64,
+    /// e of the laws with one restitution for all speeds: Hertz' and the linear spring.
+    pub restitution: f64,
+    /// T of the linear law, s.
+    pub contact_time: f64,
+    /// Range of speeds in which that e is valid: from, to, m/s; and its largest error over all data.
+    pub validity: [f64; 3],
+    /// A of Kuwabara & Kono, s, for a contact that ends at zero force, and its validity.
+    pub dissipation_time: (f64, [f64; 3]),
+    /// The law whose restitution falls with speed; `None` if it cannot make the loss.
+    pub hunt_crossley: Option<HuntCrossley>,
+    /// Luding's springs for bodies that dent; `None` if no body has a yield strength, or the restitution does not fall.
+    pub springs: Option<DentingSprings>,
+    /// Yield strength (Pa) and Poisson's ratio of LAMMPS' `mdr` for bodies that dent, and its validity.
+    pub mdr: Option<([f64; 2], [f64; 3])>,
+    /// The speeds at which e is an upper bound, with the reasons; empty if it is none.
+    pub bounds: Vec<String>,
+    /// Other comments on e, such as the speeds that are left out.
+    pub notes: Vec<String>,
+    /// Confidence level and largest half-width of the band of a fitted e(v).
+    pub band: Option<(f64, f64)>,
+}
+
+/// A file for a DEM code.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snippet {
+    /// Name of the file.
+    pub name: &'static str,
+    /// The code it is for.
+    pub code: &'static str,
+    /// The model in the code's own words.
+    pub model: &'static str,
+    /// The name of the law's family, or `constant`.
+    pub law: &'static str,
+    /// Name and value of the numbers that decide on the loss.
+    pub entries: Vec<(&'static str, f64)>,
+    /// The restitution that it makes; `None` if it depends on speed.
+    pub restitution: Option<f64>,
+    /// From, to (m/s), largest error of e over all data.
+    pub validity: [f64; 3],
+    /// The whole text.
+    pub text: String,
+}
+
+/// The values of placeholders, by name.
+#[derive(Default)]
+struct Values {
+    numbers: BTreeMap<&'static str, f64>,
+    words: BTreeMap<String, String>,
+}
+
+/// What the lines of a block have made so far.
+#[derive(Default)]
+struct Lines {
+    notes: String,
+    commands: String,
+}
+
+impl Sphere {
+    /// Creates a sphere of a diameter, m, and a material, with its instantaneous moduli.
+    pub fn new(diameter: f64, material: &Material) -> Self {
+        Self {
+            diameter,
+            density: material.density(),
+            youngs_modulus: material.instantaneous().youngs_modulus(),
+            poissons_ratio: material.instantaneous().poissons_ratio(),
+        }
+    }
+
+    /// Returns diameter, density, Young's modulus and Poisson's ratio as text.
+    fn texts(&self) -> [String; 4] {
+        [self.diameter, self.density, self.youngs_modulus, self.poissons_ratio].map(short)
+    }
+}
+
+impl Values {
+    /// Fills the placeholders of a line; `None` if one has no value.
+    fn fill(&self, line: &str) -> Option<String> {
+        let mut text = String::new();
+        for (k, part) in line.split(['{', '}']).enumerate() {
+            let (name, format) = part.split_once(':').unwrap_or((part, ""));
+            text += &match (self.words.get(name), format) {
+                _ if k % 2 == 0 => part.to_string(),
+                (Some(word), _) => word.clone(),
+                (None, "") => short(*self.numbers.get(name)?),
+                (None, "4") => format!("{:.4}", self.numbers.get(name)?),
+                (None, "6e") => format!("{:.6e}", self.numbers.get(name)?),
+                (None, unit) => format!("{} {unit}", number(*self.numbers.get(name)?, 4)),
+            };
+        }
+        Some(text)
+    }
+
+    /// Sets the words for a sphere with its number from 1; `suffix` ends their names.
+    fn set_sphere(&mut self, number: usize, sphere: &Sphere, suffix: &str) {
+        let names = ["diameter", "density", "young", "poisson"].into_iter().zip(sphere.texts());
+        let numbers = [("i", number.to_string()), ("i0", (number - 1).to_string())];
+        let words = names.chain(numbers);
+        self.words.extend(words.map(|(name, text)| (format!("{name}{suffix}"), text)));
+    }
+}
+
+impl Export {
+    /// Returns the input of all codes.
+    ///
+    /// # Errors
+    /// Numbers that a code's formula does not take.
+    pub fn snippets(&self) -> Result<Vec<Snippet>, LawError> {
+        let (numbers, words) = (self.numbers()?, self.words());
+        let blocks = || SNIPPETS.split("\n@ ").skip(1).filter_map(|block| block.split_once('\n'));
+        let mut snippets = Vec::new();
+        for (head, body) in blocks() {
+            let parts: Vec<&str> = head.split(" | ").collect();
+            let [name, code, model, title, law, entries] = parts[..] else { continue };
+            let mut values = Values { numbers: numbers.clone(), words: words.clone() };
+            let mut lines = Lines::default();
+            let is_filled = self.add_lines(body, &blocks, &mut values, &mut lines).is_some();
+            let entries = entries.split("; ").filter_map(|entry| {
+                let (key, name) = entry.split_once(" = ")?;
+                Some((key, *values.numbers.get(name)?))
+            });
+            if !is_filled || lines.commands.is_empty() {
+                continue;
+            }
+            let of_speed = match law {
+                "kuwabara_kono" => Some(self.dissipation_time.1),
+                "hunt_crossley" => self.hunt_crossley.map(|fitted| fitted.validity),
+                "luding" => self.springs.map(|fitted| fitted.validity),
+                "mdr" => self.mdr.map(|(_, validity)| validity),
+                _ => None,
+            };
+            let restitution = of_speed.is_none().then_some(self.restitution);
+            let validity = of_speed.unwrap_or(self.validity);
+            let heading = self.heading(&format!("{code}, {title}"), validity, &lines.notes);
+            let text = match name.rsplit_once('.').map_or("", |(_, ending)| ending) {
+                "cpp" => slashed(&heading) + &lines.commands.replace(UNLIKE, &slashed(UNLIKE)),
+                "xml" => format!("<!--\n{}-->\n{}", heading.replace("--", "-"), lines.commands),
+                _ => heading + &lines.commands,
+            };
+            let entries = entries.collect();
+            snippets.push(Snippet { name, code, model, law, entries, restitution, validity, text });
+        }
+        Ok(snippets)
+    }
+
+    /// Adds the lines of a block that apply to these spheres; `None` if a value does not exist.
+    fn add_lines<'b, B: Iterator<Item = (&'b str, &'b str)>>(
+        &self,
+        body: &'b str,
+        blocks: &impl Fn() -> B,
+        values: &mut Values,
+        lines: &mut Lines,
+    ) -> Option<()> {
+        let (is_wall, is_equal) = (self.spheres.len() < 2, self.is_equal());
+        let is_word = |word: &str| word.chars().all(|c| c.is_ascii_lowercase() || c == ' ');
+        let split = |line: &'b str| match line.split_once('|') {
+            Some((condition, text)) if is_word(condition) => (condition, text),
+            _ => ("", line),
+        };
+        let all: Vec<(&str, &str)> = body.trim_end().lines().map(split).collect();
+        for group in all.chunk_by(|one, next| one.0 == next.0) {
+            let applies = |word: &str| match word {
+                "wall" => is_wall,
+                "two" => !is_wall,
+                "equal" => is_equal,
+                "other" => !is_equal,
+                "unlike" => !is_wall && !is_equal,
+                _ => true,
+            };
+            let condition = group[0].0;
+            if !condition.split(' ').all(applies) {
+                continue;
+            }
+            let n_repeats = match condition.split(' ').next() {
+                Some("kinds") if is_equal => 1,
+                Some("each" | "kinds") => self.spheres.len(),
+                _ => 1,
+            };
+            for repeat in 0..n_repeats {
+                values.set_sphere(repeat + 1, &self.spheres[repeat], "");
+                for (_, line) in group {
+                    match (condition, line.strip_prefix("> ")) {
+                        ("let", _) => {
+                            let (name, text) = line.split_once(" = ")?;
+                            let text = values.fill(text)?;
+                            values.words.insert(name.to_string(), text);
+                        }
+                        ("note", _) => lines.notes += &format!("# {}\n", values.fill(line)?),
+                        ("unlike", _) if line.is_empty() => lines.commands += UNLIKE,
+                        (_, Some(name)) => {
+                            let (_, body) = blocks().find(|(head, _)| *head == name)?;
+                            self.add_lines(body, blocks, values, lines)?;
+                        }
+                        _ => lines.commands += &(values.fill(line)? + "\n"),
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Returns the numbers that snippets can contain.
+    fn numbers(&self) -> Result<BTreeMap<&'static str, f64>, LawError> {
+        let Self { pair, restitution: e, contact_time: time, .. } = self;
+        let (mass, modulus) = (pair.effective_mass(), pair.contact_modulus());
+        let linear = |end_rule| linear_from_restitution(pair, *e, *time, end_rule);
+        let stiffness = linear(EndRule::ZeroOverlap)?.stiffness();
+        let poissons_ratio = self.spheres[0].poissons_ratio;
+        let mut numbers = BTreeMap::from([
+            ("e", *e),
+            ("time", *time),
+            ("dissipation_time", self.dissipation_time.0),
+            ("eta", viscoelastic_damping(pair, self.dissipation_time.0)?),
+            ("stiffness", stiffness),
+            ("velocity", characteristic_velocity(pair, stiffness)),
+            ("contact_modulus", modulus),
+            ("twice_plane_modulus", 2.0 * (1.0 - poissons_ratio.powi(2)) * modulus),
+            ("twice_mass", 2.0 * mass),
+            ("wall_modulus", self.wall_modulus()),
+            ("slow", self.speeds.0),
+            ("fast", self.speeds.1),
+            ("mujoco_step", time / 100.0),
+        ]);
+        numbers.extend(tsuji_entry(*e, TsujiVersion::Plain).map(|entry| ("tsuji", entry)));
+        numbers.extend(mfix_entry(*e).map(|entry| ("mfix_en", entry)));
+        if self.spheres.len() == 2 {
+            numbers.insert("mindlin_en", hertz_mindlin_entry(pair, *e)?);
+        }
+        if let Some(DentingSprings { loading, ratio, depth, .. }) = self.springs {
+            numbers.extend([
+                ("k1", loading),
+                ("kp", ratio * loading),
+                ("kp_over_k1", ratio),
+                ("phi_f", depth),
+                ("k1_velocity", characteristic_velocity(pair, loading)),
+            ]);
+        }
+        if let Some(([strength, ratio], _)) = self.mdr {
+            let n_sides = self.spheres.len() as f64;
+            let young = n_sides * (1.0 - ratio * ratio) * modulus;
+            numbers.extend([
+                ("mdr_strength", strength),
+                ("mdr_young", young),
+                ("mdr_poisson", ratio),
+            ]);
+        }
+        let Ok(law) = linear(EndRule::ZeroForce) else { return Ok(numbers) };
+        numbers.extend([
+            ("point_stiffness", 2.0 * law.stiffness()),
+            ("mujoco_stiffness", law.stiffness() / mass),
+            ("mujoco_damping", law.damping() / mass),
+        ]);
+        if let Some((time, en)) = viscel_entry(pair, &law) {
+            numbers.extend([("viscel_tc", time), ("viscel_en", en)]);
+        }
+        if let Some(HuntCrossley { dissipation, rms, .. }) = self.hunt_crossley {
+            numbers.extend([
+                ("dissipation", dissipation),
+                ("dissipation_rms", rms),
+                ("slow_e", restitution_of(dissipation * self.speeds.0)),
+                ("fast_e", restitution_of(dissipation * self.speeds.1)),
+            ]);
+        }
+        Ok(numbers)
+    }
+
+    /// Returns the words that snippets can contain. The second of one sphere is the sphere itself.
+    fn words(&self) -> BTreeMap<String, String> {
+        let mut values = Values::default();
+        let later = tsuji_entry(self.restitution, TsujiVersion::RootTwo);
+        let n_kinds = if self.is_equal() { 1 } else { self.spheres.len() };
+        for number in 1..=2 {
+            let sphere = self.spheres.get(number - 1).unwrap_or(&self.spheres[0]);
+            values.set_sphere(number, sphere, &number.to_string());
+        }
+        values.words.extend([
+            ("wall".to_string(), self.wall().to_string()),
+            ("n_kinds".to_string(), n_kinds.to_string()),
+            ("tsuji_later".to_string(), later.map_or("nothing".into(), |e| format!("{e:.4}"))),
+        ]);
+        values.words
+    }
+
+    /// Returns the comment lines that open each snippet: its law, its spheres, its validity, and the notes.
+    fn heading(&self, model: &str, [from, to, worst]: [f64; 3], notes: &str) -> String {
+        let speed = |value: f64| format!("{} m/s", number(value, 4));
+        let diameters: Vec<_> = self.spheres.iter().map(|sphere| short(sphere.diameter)).collect();
+        let bodies = match &diameters[..] {
+            [one] => format!("a sphere of {one} m on a {}", self.wall()),
+            all => format!("spheres of {} m", all.join(" and ")),
+        };
+        // The fit of a bound is valid, but the restitution is not.
+        let e = if self.bounds.is_empty() { "e" } else { "the fit" };
+        let good = format!("good to {}", number(self.tolerance, 2));
+        let range = if from == to {
+            format!("{e} is {good} at {} alone", speed(from))
+        } else if from <= to {
+            format!("{e} is {good} from {} to {}", speed(from), speed(to))
+        } else {
+            format!("{e} is nowhere {good}")
+        };
+        let warnings = self.bounds.iter().map(|text| commented(&format!("WARNING: {text}")));
+        let own_notes = self.notes.iter().map(|text| commented(text));
+        let remarks: String = warnings.chain(own_notes).collect();
+        let band = self.band.map_or(String::new(), |(confidence, half)| {
+            format!(
+                "# e(v) is known to {} or better ({} % band, {BAND_FILE}).\n",
+                number(half, 2),
+                number(100.0 * confidence, 3)
+            )
+        });
+        format!(
+            "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
+             # (largest error {worst:.4}).\n{band}{remarks}{notes}",
+            self.title,
+            speed(self.speeds.0),
+            speed(self.speeds.1)
+        )
+    }
+
+    /// Whether both spheres are the same.
+    fn is_equal(&self) -> bool {
+        self.spheres.len() == 2 && self.spheres.first() == self.spheres.last()
+    }
+
+    /// Returns the name of the body that a single sphere strikes.
+    fn wall(&self) -> &'static str {
+        if self.has_rigid_wall() { "rigid wall" } else { "block without an end" }
+    }
+
+    /// Whether a single sphere strikes a rigid wall: E* is then its own E/(1 − ν²).
+    fn has_rigid_wall(&self) -> bool {
+        self.spheres.len() == 1 && self.wall_compliance() <= 1e-9 / self.pair.contact_modulus()
+    }
+
+    /// Returns Young's modulus, Pa, of a wall with Poisson's ratio 0 that gives the contact's E*; for a
+    /// rigid wall a million times the sphere's.
+    fn wall_modulus(&self) -> f64 {
+        match self.has_rigid_wall() {
+            true => 1e6 * self.spheres[0].youngs_modulus,
+            false => self.wall_compliance().recip(),
+        }
+    }
+
+    /// Returns 1/E* less the first sphere's share, 1/Pa.
+    fn wall_compliance(&self) -> f64 {
+        let Sphere { youngs_modulus, poissons_ratio, .. } = self.spheres[0];
+        self.pair.contact_modulus().recip() - (1.0 - poissons_ratio.powi(2)) / youngs_modulus
+    }
+}
+
+/// Returns a text as comment lines.
+fn commented(text: &str) -> String {
+    let mut lines = vec!["#".to_string()];
+    for word in text.split(|c: char| c.is_whitespace() || c.is_control()) {
+        let is_full = lines.last().is_some_and(|line| line.len() + word.len() >= LONGEST_LINE);
+        if is_full {
+            lines.push("#".to_string());
+        }
+        lines.last_mut().into_iter().for_each(|line| *line += &format!(" {word}"));
+    }
+    lines.join("\n") + "\n"
+}
+
+/// Returns comment lines of C++ in place of those with a hash.
+fn slashed(text: &str) -> String {
+    text.lines().map(|line| format!("//{}\n", line.trim_start_matches('#'))).collect()
+}
+
+/// Formats a number with up to ten digits, as short as possible.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}

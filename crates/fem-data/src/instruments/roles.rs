@@ -1,0 +1,95 @@
+//! The kinds of records, and the names of their columns.
+
+use crate::table::{DataError, NumberColumns};
+
+/// The kinds of records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RecordKind {
+    /// The instants at which a bouncing ball touches the plate.
+    Bounces,
+    /// The height of a ball over time.
+    Track,
+    /// The force of impacts over time.
+    Force,
+    /// A sound or another trace in which bounces are onsets.
+    Sound,
+}
+
+impl RecordKind {
+    /// All kinds of records, in the order of the documentation.
+    pub const ALL: [Self; 4] = [Self::Bounces, Self::Track, Self::Force, Self::Sound];
+
+    /// Returns the name of the kind: `bounces`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bounces => "bounces",
+            Self::Track => "track",
+            Self::Force => "force",
+            Self::Sound => "sound",
+        }
+    }
+
+    /// Returns the columns of the kind.
+    fn columns(self) -> &'static str {
+        match self {
+            Self::Bounces => "time_s",
+            Self::Track => "time_s, y_m",
+            Self::Force => "time_s, force_n",
+            Self::Sound => "a WAV file, or time_s, signal",
+        }
+    }
+
+    /// Recognises the kind of a record by its columns.
+    ///
+    /// # Errors
+    /// The columns are those of no kind.
+    pub(super) fn of(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
+        let has = |names: &[&str]| columns.find(names).map(|found| found.is_some());
+        if has(&TIMES)? {
+            let second =
+                [(&FORCES[..], Self::Force), (&HEIGHTS, Self::Track), (&SIGNALS, Self::Sound)];
+            for (names, kind) in second {
+                if has(names)? {
+                    return Ok(kind);
+                }
+            }
+            return Ok(Self::Bounces);
+        }
+        let found = columns.header().join(", ");
+        let kinds = Self::ALL.map(|kind| format!("{} ({})", kind.name(), kind.columns()));
+        let message = format!("the columns {found} are those of no record");
+        let help = format!(
+            "a record is one of {}; name the columns so, or say which they are, --columns time=COLUMN",
+            kinds.join(", ")
+        );
+        Err(columns.header_fault(message).with_help(help))
+    }
+}
+
+/// Names of a column of instants.
+pub(super) const TIMES: [&str; 8] =
+    ["time", "t", "instant", "bounce", "impact", "bounce_time", "impact_time", "timestamp"];
+/// Names of a column of the uncertainties of instants.
+pub(super) const TIME_UNCERTAINTIES: [&str; 3] = ["time_uncertainty", "t_uncertainty", "u(t)"];
+/// Names of a column of heights.
+pub(super) const HEIGHTS: [&str; 6] = ["height", "y", "position", "h", "z", "position_y"];
+/// Names of a column of the uncertainties of heights.
+pub(super) const HEIGHT_UNCERTAINTIES: [&str; 4] =
+    ["height_uncertainty", "y_uncertainty", "u(y)", "position_uncertainty"];
+/// Names of a column of forces.
+pub(super) const FORCES: [&str; 3] = ["force", "f", "load"];
+/// Names of a column of amplitudes.
+pub(super) const SIGNALS: [&str; 12] = [
+    "signal",
+    "amplitude",
+    "voltage",
+    "sound",
+    "level",
+    "pressure",
+    "acceleration",
+    "sample",
+    "ch1",
+    "channel_1",
+    "channel_a",
+    "value",
+];

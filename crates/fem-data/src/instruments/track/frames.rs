@@ -1,0 +1,138 @@
+//! The frames of a track, and what they show without a fit: their noise, wrong ones among them, and the lowest ones.
+
+use crate::instruments::roles::{HEIGHT_UNCERTAINTIES, HEIGHTS, TIMES};
+use crate::instruments::series::median;
+use crate::table::{DataError, NumberColumns};
+
+/// A frame this many times the noise and the usual curvature above its neighbours is wrong.
+const SPIKE: f64 = 10.0;
+/// Most frames of a record.
+const MOST_FRAMES: usize = 1_000_000;
+
+/// Frames of a ball.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frames {
+    /// The name of the record in messages.
+    pub name: String,
+    /// Increasing times, s.
+    pub times: Vec<f64>,
+    /// Heights, m, upwards.
+    pub heights: Vec<f64>,
+    /// Weights of the frames, the inverse squares of relative uncertainties.
+    pub(super) weights: Vec<f64>,
+}
+
+impl Frames {
+    /// Reads the frames of a table. Frames without a time or a height are skipped.
+    ///
+    /// # Errors
+    /// A column is missing, a cell is no number, or the times do not increase.
+    pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
+        let require = |names: &[&str], help| columns.require(names, names[0], help);
+        let time = require(&TIMES, "name a column time_s, or write --columns time=COLUMN")?;
+        let height =
+            require(&HEIGHTS, "name a column y_m or y_cm, or write --columns height=COLUMN")?;
+        let [times, heights] =
+            [columns.numbers(time, [0, 0, 1])?.values, columns.numbers(height, [1, 0, 0])?.values];
+        let uncertainties = match columns.find(&HEIGHT_UNCERTAINTIES)? {
+            Some(column) => columns.numbers(column, [1, 0, 0])?.values,
+            None => vec![1.0; times.len()],
+        };
+        let lines = columns.lines();
+        let mut frames = Self {
+            name: columns.name().to_string(),
+            times: Vec::new(),
+            heights: Vec::new(),
+            weights: Vec::new(),
+        };
+        for (k, (time, height)) in times.into_iter().zip(heights).enumerate() {
+            let uncertainty = uncertainties[k];
+            if !time.is_finite() || !height.is_finite() || !uncertainty.is_finite() {
+                continue;
+            }
+            let fault = |message: String| DataError::new(&frames.name, message).in_line(lines[k]);
+            let help = "the frames of one track are in order; keep each track in a file of its own";
+            columns.check_increase(k, frames.times.last(), time, help)?;
+            if uncertainty <= 0.0 {
+                let help = "it must be greater than 0, or the column is left out";
+                return Err(fault("the uncertainty of the height".to_string()).with_help(help));
+            }
+            frames.times.push(time);
+            frames.heights.push(height);
+            frames.weights.push(1.0 / (uncertainty * uncertainty));
+        }
+        if frames.times.len() > MOST_FRAMES {
+            let message = format!("{} frames are more than {MOST_FRAMES}", frames.times.len());
+            return Err(
+                DataError::new(&frames.name, message).with_help("keep the frames of one drop")
+            );
+        }
+        let mean = frames.weights.iter().sum::<f64>() / frames.weights.len().max(1) as f64;
+        frames.weights.iter_mut().for_each(|weight| *weight /= mean);
+        Ok(frames)
+    }
+
+    /// Returns the noise of a frame by third differences, to which a parabola does not contribute, m.
+    pub(super) fn noise(&self) -> f64 {
+        let (t, y) = (&self.times, &self.heights);
+        let is_even = |k: &usize| {
+            let gaps = [t[k + 1] - t[*k], t[k + 2] - t[k + 1], t[k + 3] - t[k + 2]];
+            gaps.iter().all(|gap| (gap / gaps[0] - 1.0).abs() < 0.05)
+        };
+        let third = |k: usize| (y[k + 3] - 3.0 * y[k + 2] + 3.0 * y[k + 1] - y[k]).abs();
+        let all: Vec<f64> = (0..y.len().saturating_sub(3)).filter(is_even).map(third).collect();
+        // The median of a normal distribution's absolute value is 0.6745 σ; the variances add up to 20 σ².
+        if all.is_empty() { 0.0 } else { median(&all) / (0.6745 * 20f64.sqrt()) }
+    }
+
+    /// Returns the lowest frames between rises of at least `rise`.
+    pub(super) fn minima(&self, rise: f64) -> Vec<usize> {
+        let y = &self.heights;
+        let (mut minima, mut low, mut high) = (Vec::new(), 0, 0);
+        let mut is_falling = false;
+        for k in 1..y.len() {
+            if is_falling {
+                if y[k] < y[low] {
+                    low = k;
+                } else if y[k] > y[low] + rise {
+                    minima.push(low);
+                    (is_falling, high) = (false, k);
+                }
+            } else if y[k] > y[high] {
+                high = k;
+            } else if y[k] < y[high] - rise {
+                (is_falling, low) = (true, k);
+            }
+        }
+        minima
+    }
+
+    /// Returns the frames without single ones that are far above the line between their neighbours, as no flight is.
+    pub(super) fn without_spikes(&self, noise: f64) -> Self {
+        let (t, y) = (&self.times, &self.heights);
+        let above = |k: usize| {
+            let share = (t[k] - t[k - 1]) / (t[k + 1] - t[k - 1]);
+            y[k] - y[k - 1] - share * (y[k + 1] - y[k - 1])
+        };
+        let n = t.len();
+        let all: Vec<f64> = (1..n - 1).map(|k| above(k).abs()).collect();
+        let limit = SPIKE * (noise + median(&all));
+        let is_kept: Vec<bool> =
+            (0..n).map(|k| k == 0 || k == n - 1 || above(k) <= limit).collect();
+        let kept = |values: &[f64]| -> Vec<f64> {
+            let all = values.iter().zip(&is_kept).filter(|(_, kept)| **kept);
+            all.map(|(value, _)| *value).collect()
+        };
+        Self {
+            name: self.name.clone(),
+            times: kept(t),
+            heights: kept(y),
+            weights: kept(&self.weights),
+        }
+    }
+
+    pub(super) fn upside_down(&self) -> Self {
+        let heights = self.heights.iter().map(|y| -y).collect();
+        Self { heights, ..self.clone() }
+    }
+}

@@ -1,0 +1,418 @@
+//! CSV tables with a header: cells as numbers, and errors with their line.
+//!
+//! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`, or have it in
+//! brackets, `speed [cm/s]`, or in a row of units below the names. Without one a cell is a bare SI number or has its own
+//! unit, `5 cm/s`. Cells are separated by commas, semicolons, tabs or blanks; with the latter three numbers may have
+//! decimal commas.
+
+use std::fmt::Display;
+
+use fem_case::{nearest, parse_quantity};
+use fem_material::engineering::number;
+
+use super::column_roles::{bare, column_names, ending_of, is_key, readings, uncertainty_of};
+use super::csv_dialect::{
+    column_name, is_missing, separator, tabs_for_blanks, value_and_uncertainty, with_point,
+    with_signs_named, with_units,
+};
+use super::data_error::{DataError, one_line};
+
+/// A table in memory with its cells as text.
+///
+/// ```
+/// use fem_data::table::Table;
+///
+/// let table = Table::parse("e.csv", "# glass\nspeed_cm_s, e\n50, 0.925\n")?;
+/// let speed = table.require(&["speed"], "speed_m_s")?;
+/// assert_eq!(table.number(0, speed, [1, 0, -1])?, 0.5);
+///
+/// let error = table.number(0, speed, [0, 0, 1]).unwrap_err();
+/// assert_eq!(error.place(), "e.csv:3");
+/// # Ok::<(), fem_data::table::DataError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    name: String,
+    header: Vec<String>,
+    header_line: u64,
+    rows: Vec<(u64, Vec<String>)>,
+    has_decimal_commas: bool,
+    /// Columns that the user has renamed.
+    named: Vec<usize>,
+}
+
+/// The beginnings of `.xlsx`, `.ods` and other packed files, and of `.xls`, read as Latin-1.
+const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
+
+/// Similarity of names above which one is the other misspelt, such as `diameter1` and `uncertanty`, but not
+/// `contact_radius` for `contact_time`.
+const MISSPELT: f64 = 0.9;
+
+impl Table {
+    /// Returns the table with another name of a column, if it has that column.
+    pub(super) fn with_name(mut self, column: &str, name: &str) -> Self {
+        let found = self.header.iter_mut().find(|header| *header == column);
+        found.into_iter().for_each(|header| *header = name.to_string());
+        self
+    }
+
+    /// Parses a text; messages refer to it by `name`.
+    ///
+    /// # Errors
+    /// The text is no CSV, or has no row.
+    pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
+        let name = one_line(name);
+        let text = text.trim_start_matches('\u{feff}');
+        if PACKED.iter().any(|mark| text.starts_with(mark)) {
+            let error =
+                DataError::new(&name, "this is a spreadsheet or another packed file, not text");
+            return Err(error.with_help("save the table as CSV, and name that file"));
+        }
+        let text = &*tabs_for_blanks(text);
+        let (separator, below) = separator(text);
+        let n_above = text.lines().count() - below.lines().count();
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(separator)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(below.as_bytes());
+        let header = reader.headers().map_err(|error| DataError::new(&name, error))?;
+        let is_header = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
+        let header_line = text.lines().skip(n_above).position(is_header);
+        let header_line = (n_above + header_line.unwrap_or(0) + 1) as u64;
+        let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
+        if !header.is_empty() && header.iter().all(is_number) {
+            let error = DataError::new(&name, "the first row is of numbers: there is no header");
+            return Err(error.in_line(header_line).with_help(
+                "write a line above it that names the columns, such as speed_m_s,restitution or \
+                 frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
+            ));
+        }
+        let mut header = with_signs_named(header.iter().map(column_name).collect());
+        let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+        let below: Vec<&str> = text.lines().skip(n_above).collect();
+        for record in reader.records() {
+            // The reader counts comments above a row to the row.
+            let place = |position: Option<&csv::Position>| {
+                let first = position.map_or(0, csv::Position::line) as usize;
+                let above = below.iter().skip(first.saturating_sub(1));
+                (n_above + first + above.take_while(|line| !is_header(line)).count()) as u64
+            };
+            let record = record.map_err(|error| {
+                let line = place(error.position());
+                DataError::new(&name, error).in_line(line)
+            })?;
+            let line = place(record.position());
+            let mut cells: Vec<String> = record.iter().map(str::to_string).collect();
+            // Spreadsheets end rows with empty cells.
+            while cells.len() > header.len() && cells.last().is_some_and(String::is_empty) {
+                cells.pop();
+            }
+            if cells.len() != header.len() {
+                let message = format!("{} cells below a header of {}", cells.len(), header.len());
+                return Err(DataError::new(&name, message)
+                    .in_line(line)
+                    .with_help("every row has as many cells as the header"));
+            }
+            rows.push((line, cells));
+        }
+        split_uncertainties(&mut header, &mut rows);
+        if let [(_, first), (_, second), ..] = rows.as_slice()
+            && let Some(names) = with_units(&header, first, second)
+        {
+            header = names;
+            rows.remove(0);
+        }
+        if rows.is_empty() {
+            return Err(DataError::new(&name, "there is no row below the header"));
+        }
+        let has_decimal_commas = separator != b',';
+        let named = Vec::new();
+        let table = Self { name, header, header_line, rows, has_decimal_commas, named };
+        table.check_header()?;
+        table.check_decimal_signs()?;
+        Ok(table)
+    }
+
+    /// Rejects two columns of the same name, of which a reader would take one.
+    fn check_header(&self) -> Result<(), DataError> {
+        let mut columns = self.header.iter().enumerate().filter(|(_, name)| !name.is_empty());
+        let twice = columns.find_map(|(column, name)| {
+            let first = self.header[..column].iter().position(|other| other == name)?;
+            Some((name, first + 1, column + 1))
+        });
+        let Some((name, first, second)) = twice else { return Ok(()) };
+        let message = format!("the columns {first} and {second} have the same name, {name}");
+        Err(self.header_fault(message).in_column(name).with_help("rename one of the two"))
+    }
+
+    /// Rejects a comma in a number if other numbers of the table have points: one of the two separates thousands.
+    fn check_decimal_signs(&self) -> Result<(), DataError> {
+        if !self.has_decimal_commas {
+            return Ok(());
+        }
+        let number_with = |cell: &str, sign: char| {
+            cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok()
+        };
+        let cells = || {
+            let rows = self.rows.iter().enumerate();
+            rows.flat_map(|(row, (_, cells))| cells.iter().map(move |cell| (row, cell)))
+        };
+        let point = cells().find(|(_, cell)| number_with(cell, '.'));
+        let comma = cells().find(|(_, cell)| number_with(cell, ','));
+        let (Some((_, point)), Some((row, comma))) = (point, comma) else { return Ok(()) };
+        let message = format!("\"{comma}\" has a comma, and \"{point}\" a point");
+        Err(self.fault(row, message).with_help(
+            "write all numbers with decimal points or all with decimal commas, and no separator of thousands",
+        ))
+    }
+
+    /// Returns the table with columns renamed: `speed` for a column `v`. A name without a unit keeps that of the header.
+    ///
+    /// # Errors
+    /// The header does not have a column, or no column is read by a name.
+    ///
+    /// ```
+    /// use fem_data::table::Table;
+    ///
+    /// let table = Table::parse("e.csv", "v_cm_s;COR\n50;0,925\n")?;
+    /// let table = table.renamed(&[("speed", "v_cm_s"), ("restitution", "cor")])?;
+    /// assert_eq!(table.header(), ["speed_cm_s", "restitution"]);
+    /// # Ok::<(), fem_data::table::DataError>(())
+    /// ```
+    pub fn renamed(mut self, names: &[(&str, &str)]) -> Result<Self, DataError> {
+        let found = self.header.clone();
+        for (name, old) in names {
+            let wanted = column_name(old);
+            let Some(column) = position(&found, &wanted) else {
+                let message = format!("there is no column {old}; found are {}", found.join(", "));
+                let near = nearest(&wanted, &found, 0.8);
+                let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+                let help = format!("{near}write --columns {name}=COLUMN with one that is there");
+                return Err(self.header_fault(message).with_help(help));
+            };
+            let name = column_name(name);
+            let known = column_names();
+            if !readings(&name).any(|reading| known.contains(&reading) || is_key(reading)) {
+                let near = nearest(bare(&name), &known, 0.8);
+                let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+                let help = format!("{near}a column may be {}", known.join(", "));
+                let message = format!("--columns {name}={old}: {name} is no meaning of a column");
+                return Err(DataError::new(&self.name, message).with_help(help));
+            }
+            let unit = ending_of(&found[column]).filter(|_| ending_of(&name).is_none());
+            let name = name + unit.map_or("", |unit| unit.text);
+            // Its uncertainty, perhaps of the same cells, is renamed with it.
+            let own = uncertainty_of(&found[column]);
+            if let Some(uncertainty) = found.iter().position(|other| *other == own) {
+                self.header[uncertainty] = uncertainty_of(&name);
+            }
+            self.header[column] = name;
+            self.named.push(column);
+        }
+        Ok(self)
+    }
+
+    /// Returns the column of a name, which may lack the unit if only one column fits.
+    pub(super) fn position(&self, name: &str) -> Option<usize> {
+        position(&self.header, name)
+    }
+
+    /// Returns the name of the table, in one line.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns the number of rows.
+    pub fn n_rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Returns the names of the columns, in lower case.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// Returns the column that has one of these names, with or without the ending of a unit.
+    ///
+    /// # Errors
+    /// Two columns have one.
+    pub fn find(&self, names: &[&str]) -> Result<Option<usize>, DataError> {
+        let is_it = |column: &usize| {
+            readings(&self.header[*column]).any(|reading| names.contains(&reading))
+        };
+        if let Some(named) = self.named.iter().copied().find(is_it) {
+            return Ok(Some(named));
+        }
+        let mut found = (0..self.header.len()).filter(is_it);
+        match (found.next(), found.next()) {
+            (Some(first), Some(second)) => {
+                let [first, second] = [first, second].map(|column| &self.header[column]);
+                let message = format!("the columns {first} and {second} mean the same");
+                Err(self.header_fault(message).with_help("keep one of the two"))
+            }
+            (first, _) => Ok(first),
+        }
+    }
+
+    /// Returns the column that has one of these names; messages use the first of them.
+    ///
+    /// # Errors
+    /// No column has one of the names, or two have.
+    pub fn require(&self, names: &[&str], example: &str) -> Result<usize, DataError> {
+        self.find(names)?.ok_or_else(|| {
+            let (name, found) = (names[0], self.header.join(", "));
+            let one_cell = match self.header.len() {
+                1 => "; cells are separated by commas, semicolons, tabs or blanks",
+                _ => "",
+            };
+            self.header_fault(format!("there is no column {name}; found are {found}")).with_help(
+                format!(
+                    "name a column {example}, or say which it is, --columns {name}=COLUMN{one_cell}"
+                ),
+            )
+        })
+    }
+
+    /// Returns the names of the columns that are neither read nor known.
+    ///
+    /// # Errors
+    /// The name of a column is nearly that of one that would be read.
+    pub fn unread(
+        &self,
+        read: &[usize],
+        optional: &[&str],
+        is_known: impl Fn(&str) -> bool,
+    ) -> Result<Vec<String>, DataError> {
+        let mut unread = Vec::new();
+        for (column, header) in self.header.iter().enumerate() {
+            let bare = bare(header);
+            let is_empty =
+                header.is_empty() && (0..self.n_rows()).all(|row| self.is_missing(row, column));
+            if is_empty || read.contains(&column) || is_known(header) || is_known(bare) {
+                continue;
+            }
+            // `contact_time_spread` and `mass_uncertainty` are names of their own.
+            let is_own = |near: &str| {
+                bare.starts_with(&format!("{near}_")) || bare.ends_with(&format!("_{near}"))
+            };
+            if let Some(near) = nearest(bare, optional, MISSPELT).filter(|near| !is_own(near)) {
+                let help = format!(
+                    "did you mean `{near}`? columns that may be given are {}; rename one that is \
+                     not to be read",
+                    optional.join(", ")
+                );
+                let error = self.header_fault(format!("unknown column {header}"));
+                return Err(error.in_column(header).with_help(help));
+            }
+            unread.push(one_line(header));
+        }
+        Ok(unread)
+    }
+
+    /// Returns the text of a cell.
+    pub fn text(&self, row: usize, column: usize) -> &str {
+        self.rows[row].1.get(column).map_or("", String::as_str)
+    }
+
+    /// Whether a cell has no value: it is empty, `nan`, `n/a`, `-`, ….
+    pub fn is_missing(&self, row: usize, column: usize) -> bool {
+        is_missing(self.text(row, column))
+    }
+
+    /// Whether numbers may have decimal commas.
+    pub(super) fn has_decimal_commas(&self) -> bool {
+        self.has_decimal_commas
+    }
+
+    /// Returns the line of a row in the text.
+    pub fn line(&self, row: usize) -> u64 {
+        self.rows[row].0
+    }
+
+    /// Returns a cell as a number of a dimension (exponents of metre, kilogram, second), SI.
+    ///
+    /// # Errors
+    /// The cell has another text.
+    pub fn number(&self, row: usize, column: usize, dimension: [i32; 3]) -> Result<f64, DataError> {
+        let (text, header) = (self.text(row, column), &self.header[column]);
+        let fault = |found: String| {
+            self.fault(row, format!("{header} is \"{text}\", {found}")).in_column(header)
+        };
+        let cell = if self.has_decimal_commas { with_point(text) } else { text.into() };
+        let (value, found) = parse_quantity(&cell).map_err(|_| {
+            let fault = fault("which is not a number".to_string());
+            match (text.contains('.'), text.contains(',')) {
+                (true, true) => fault.with_help("remove the separator of thousands: 1000,5 or 1000.5"),
+                (false, true) if !self.has_decimal_commas => fault.with_help(
+                    "cells that are separated by commas have decimal points, 0.5; separate them by semicolons or tabs \
+                     to write 0,5",
+                ),
+                _ => fault,
+            }
+        })?;
+        let [m, kg, s] = dimension;
+        let is_bare = found.0 == [0; 4];
+        match ending_of(header) {
+            Some(ending) if ending.dimension != dimension => {
+                Err(fault(format!("in a column whose name ends in {}", ending.text))
+                    .with_help("the ending of a column's name is its unit"))
+            }
+            Some(ending) if is_bare => Ok(value * ending.scale),
+            None if is_bare || found.0 == [m, kg, s, 0] => Ok(value),
+            Some(_) => Err(fault("but the column's name has the unit already".to_string())),
+            None => Err(fault("which is of another dimension".to_string())),
+        }
+    }
+
+    /// Returns an error about a row.
+    pub fn fault(&self, row: usize, message: impl Display) -> DataError {
+        DataError::new(&self.name, message).in_line(self.line(row))
+    }
+
+    /// Returns an error about a cell, whose value is not allowed.
+    pub(super) fn cell_fault(
+        &self,
+        row: usize,
+        column: usize,
+        value: f64,
+        help: &str,
+    ) -> DataError {
+        let header = &self.header[column];
+        self.fault(row, format!("{header} is {}", number(value, 5)))
+            .in_column(header)
+            .with_help(help)
+    }
+
+    /// Returns an error about the names of columns.
+    pub fn header_fault(&self, message: impl Display) -> DataError {
+        DataError::new(&self.name, message).in_line(self.header_line)
+    }
+}
+
+/// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.
+fn split_uncertainties(header: &mut Vec<String>, rows: &mut [(u64, Vec<String>)]) {
+    for column in 0..header.len() {
+        let split = |cells: &[String]| value_and_uncertainty(&cells[column]);
+        let name = uncertainty_of(&header[column]);
+        if header.contains(&name) || !rows.iter().any(|(_, cells)| split(cells).is_some()) {
+            continue;
+        }
+        header.push(name);
+        for (_, cells) in rows.iter_mut() {
+            let [value, uncertainty] =
+                split(cells).unwrap_or_else(|| [cells[column].clone(), String::new()]);
+            cells[column] = value;
+            cells.push(uncertainty);
+        }
+    }
+}
+
+/// Returns the column of a name, which may lack the unit if only one column fits.
+fn position(header: &[String], name: &str) -> Option<usize> {
+    header.iter().position(|known| known == name).or_else(|| {
+        let mut alike = (0..header.len()).filter(|k| bare(&header[*k]) == name);
+        alike.next().filter(|_| alike.next().is_none())
+    })
+}

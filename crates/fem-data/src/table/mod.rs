@@ -1,0 +1,40 @@
+//! Measured data: restitutions from text with names and units, with the place of every error.
+//!
+//! ```text
+//! quantity          20 cm ± 1 mm
+//! data_error ─┬─ restitutions ─ pairs ──────── e(v) of one pair of bodies, or of several
+//!             │
+//!             └─ column_roles ─ csv_table ─┬── restitution_table
+//!                speed_cm_s     CSV        ├── sweep_table: results of sweeps, values of swept keys
+//!                                          ├── moduli: storage and loss over frequency (temperature_blocks)
+//!                                          └── number_columns: long records
+//! ```
+//!
+//! Callers pass texts and their names; nothing is opened here.
+
+mod column_roles;
+mod csv_dialect;
+mod csv_table;
+mod data_error;
+mod library_data;
+mod moduli;
+mod number_columns;
+mod pairs;
+mod quantity;
+mod restitution_table;
+mod restitutions;
+mod sweep_table;
+mod temperature_blocks;
+
+pub use csv_dialect::decode;
+pub use csv_table::Table;
+pub use data_error::DataError;
+pub use library_data::{is_of_library, library_table};
+pub use moduli::{Modulus, ModulusPoint, ModulusTable, TestKind};
+pub use number_columns::{NumberColumn, NumberColumns};
+pub use pairs::{MeasuredPair, MeasuredPairs};
+pub use quantity::{Kind, Measured, NotMeasured, impossible_restitution, parse_measured};
+pub use restitutions::{
+    ACCEPTED_BOUNDS, MAX_UNCERTAINTY, Point, Restitutions, UncertaintyError, UnevenUncertainties,
+};
+pub use sweep_table::{COLUMNS, STATUS, UNCERTAINTIES, energy_column, rows_below};

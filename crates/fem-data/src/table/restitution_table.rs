@@ -1,0 +1,384 @@
+//! Reads restitutions over speeds from a table of a measurement or a sweep, of one pair of bodies or of several pairs
+//! that the table distinguishes by their diameters.
+
+use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, is_key, uncertainties};
+use super::csv_table::Table;
+use super::data_error::DataError;
+use super::pairs::MeasuredPairs;
+use super::restitutions::Point;
+use super::restitutions::{MAX_UNCERTAINTY, Restitutions, UnevenUncertainties};
+use super::sweep_table::COLUMNS;
+use fem_case::Scene;
+use fem_collision::Status;
+use fem_material::engineering::number;
+
+/// Optional columns; a name that nearly equals one of them is an error.
+const OPTIONAL: [&str; 5] =
+    ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
+/// Other columns that tables of trials, fits and sweeps have.
+const WRITTEN: [&str; 10] = [
+    "speed_uncertainty",
+    "time",
+    "first_after",
+    "second_after",
+    "alpha",
+    "beta",
+    "fitted_restitution",
+    "residual",
+    "fitted_contact_time",
+    "member",
+];
+
+impl Restitutions {
+    /// Reads a table with columns like `speed_m_s`, `restitution` and optionally `restitution_uncertainty`, or
+    /// that of a sweep over speeds. The scene has the speed of a body that the sweep does not vary.
+    ///
+    /// # Errors
+    /// The table has an error; the first one is returned.
+    ///
+    /// ```
+    /// # use fem_case::schema::{BodyTable, MaterialTable};
+    /// # use fem_case::{Case, CaseFile};
+    /// # let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
+    /// # let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.1 m/s");
+    /// # let bodies = CaseFile::of_bodies(BodyTable::wall("floor"), ball);
+    /// # let case = Case::of(bodies.with_material("ice", ice))?;
+    /// use fem_data::table::{Restitutions, Table};
+    ///
+    /// let table = Table::parse("ice.csv", "speed_cm_s,e,sigma\n5,0.6,0.02\n20,0.4,0.02\n")?;
+    /// let ice = Restitutions::read(&table, case.scene())?;
+    /// assert_eq!(ice.points[1].speed, 0.2);
+    /// assert_eq!(ice.points[1].restitution_uncertainty, Some(0.02));
+    ///
+    /// let table = Table::parse("ice.csv", "speed_cm_s,e\n5,60\n")?;
+    /// let error = Restitutions::read(&table, case.scene()).unwrap_err();
+    /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        Ok(read_rows(table, scene, Wanted::default())?.0)
+    }
+
+    /// Returns the table with a mark that restitutions which are bounds are read as they are.
+    pub fn as_elastic(table: Table) -> Table {
+        table.with_name(STATUS, ACCEPTED_STATUS)
+    }
+
+    /// Reads restitutions, and contact times if the table has them.
+    ///
+    /// # Errors
+    /// As [`Restitutions::read`].
+    pub fn read_with_contact_times(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        let wanted = Wanted { contact_times: true, ..Wanted::default() };
+        Ok(read_rows(table, scene, wanted)?.0)
+    }
+}
+
+/// Returns the restitutions of a table and the row of each.
+///
+/// # Errors
+/// As [`Restitutions::read`].
+fn read_rows(
+    table: &Table,
+    scene: &Scene,
+    wanted: Wanted<'_>,
+) -> Result<(Restitutions, Vec<usize>), DataError> {
+    let columns = Columns::of(table, scene, wanted)?;
+    let unread = table.unread(
+        &[&columns.read()[..], wanted.others].concat(),
+        &[&OPTIONAL[..], wanted.names].concat(),
+        |name| {
+            // A sweep's keys have dots in their names; their values are the same in all rows here.
+            is_key(name)
+                || COLUMNS.iter().any(|known| known == name)
+                || [&WRITTEN[..], &CONTACT_TIMES].iter().any(|known| known.contains(&name))
+        },
+    )?;
+    let (mut points, mut rows) = (Vec::new(), Vec::new());
+    for row in 0..table.n_rows() {
+        if columns.has_result(table, row) {
+            points.push(columns.point(table, row)?);
+            rows.push(row);
+        }
+    }
+    if points.is_empty() {
+        return Err(DataError::new(table.name(), "no row has a restitution"));
+    }
+    let n_left_out = table.n_rows() - points.len();
+    let uneven = even_out(&mut points, &mut rows);
+    let is_bound = |row: usize| columns.accepted.is_some_and(|it| is_bound(table, row, it));
+    let bounds = points.iter().zip(&rows).filter(|(_, row)| is_bound(**row));
+    let restitutions = Restitutions {
+        name: table.name().to_string(),
+        n_left_out,
+        bounds: bounds.map(|(point, _)| point.speed).collect(),
+        uneven,
+        lines: rows.iter().map(|row| table.line(*row)).collect(),
+        points,
+        unread,
+    };
+    Ok((restitutions, rows))
+}
+
+/// Uncertainties weight all rows or none: if most rows have one, the others are left out; otherwise no uncertainty is
+/// used.
+fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUncertainties> {
+    let has = |point: &Point| point.restitution_uncertainty.is_some();
+    let n_with = points.iter().filter(|point| has(point)).count();
+    let n_without = points.len() - n_with;
+    if n_with == 0 || n_without == 0 {
+        return None;
+    }
+    if n_with < n_without {
+        points.iter_mut().for_each(|point| point.restitution_uncertainty = None);
+        return Some(UnevenUncertainties::NotUsed { n_with });
+    }
+    let is_kept: Vec<bool> = points.iter().map(has).collect();
+    let (mut of_points, mut of_rows) = (is_kept.iter(), is_kept.iter());
+    points.retain(|_| of_points.next().is_some_and(|kept| *kept));
+    rows.retain(|_| of_rows.next().is_some_and(|kept| *kept));
+    Some(UnevenUncertainties::RowsLeftOut { n_without })
+}
+
+/// Column of a sweep that says what the restitution is.
+const STATUS: &str = "restitution_status";
+/// Its name where bounds are read as they are.
+const ACCEPTED_STATUS: &str = "accepted_restitution_status";
+
+const SPEED: [i32; 3] = [1, 0, -1];
+const TIME: [i32; 3] = [0, 0, 1];
+const LENGTH: [i32; 3] = [1, 0, 0];
+const NUMBER: [i32; 3] = [0; 3];
+/// Larger restitutions are not the scatter of a measurement.
+const MAX_RESTITUTION: f64 = 1.2;
+
+/// The columns that are read in addition to speeds and restitutions.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wanted<'a> {
+    /// Whether contact times are read.
+    pub contact_times: bool,
+    /// Columns that the caller reads; they may differ from row to row.
+    pub others: &'a [usize],
+    /// Names of those columns.
+    pub names: &'a [&'a str],
+}
+
+/// The columns of a table that are read.
+struct Columns {
+    /// Speeds whose sum is the approach speed.
+    speeds: Vec<usize>,
+    /// Speeds of bodies that have no column, m/s.
+    other_speed: f64,
+    restitution: usize,
+    uncertainty: Option<usize>,
+    contact_time: Option<usize>,
+    /// Whether the collision of a sweep's member is complete.
+    complete: Option<usize>,
+    /// Whether the restitution of a sweep's member is a bound.
+    status: Option<usize>,
+    /// The same where bounds are read as they are.
+    accepted: Option<usize>,
+}
+
+impl Columns {
+    pub fn of(table: &Table, scene: &Scene, wanted: Wanted<'_>) -> Result<Self, DataError> {
+        let swept = [0, 1].map(|body| {
+            let name = format!("body.{body}.approach_speed");
+            table.header().iter().position(|header| *header == name)
+        });
+        let own = [scene.bodies()[0].velocity(), -scene.bodies()[1].velocity()];
+        let (speeds, other_speed) = if swept == [None, None] {
+            (vec![table.require(&SPEEDS, "speed_m_s, or speed_cm_s")?], 0.0)
+        } else {
+            let fixed = swept.iter().zip(own).filter(|(column, _)| column.is_none());
+            (swept.into_iter().flatten().collect(), fixed.map(|(_, speed)| speed).sum())
+        };
+        check_same_bodies(table, &[&speeds[..], wanted.others].concat())?;
+        Ok(Self {
+            speeds,
+            other_speed,
+            restitution: table.require(&RESTITUTIONS, "restitution")?,
+            uncertainty: table.find(uncertainties())?,
+            contact_time: match wanted.contact_times {
+                true => table.find(&CONTACT_TIMES)?,
+                false => None,
+            },
+            complete: table.find(&["complete"])?,
+            status: table.find(&[STATUS])?,
+            accepted: table.find(&[ACCEPTED_STATUS])?,
+        })
+    }
+
+    pub fn read(&self) -> Vec<usize> {
+        let Self { uncertainty, contact_time, complete, status, accepted, .. } = *self;
+        let optional = [uncertainty, contact_time, complete, status, accepted];
+        let required = self.speeds.iter().copied().chain([self.restitution]);
+        required.chain(optional.into_iter().flatten()).collect()
+    }
+
+    /// Whether a row has a result: a sweep has rows of failed members, a measurement rows without a speed or a restitution.
+    pub fn has_result(&self, table: &Table, row: usize) -> bool {
+        // A first cell that is no number may be the unit of the column: it is an error.
+        if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed)) {
+            return true;
+        }
+        let is_complete = |complete: usize| table.text(row, complete) != "false";
+        self.complete.is_none_or(is_complete)
+            && !table.is_missing(row, self.restitution)
+            && !self.speeds.iter().any(|speed| table.is_missing(row, *speed))
+    }
+
+    pub fn point(&self, table: &Table, row: usize) -> Result<Point, DataError> {
+        let mut speed = self.other_speed;
+        for column in &self.speeds {
+            speed += table.number(row, *column, SPEED)?;
+        }
+        if speed <= 0.0 {
+            return Err(table
+                .fault(row, format!("the approach speed is {} m/s", number(speed, 5)))
+                .with_help("it must be greater than 0"));
+        }
+        let restitution = table.number(row, self.restitution, NUMBER)?;
+        if !(0.0..=MAX_RESTITUTION).contains(&restitution) {
+            return Err(table
+                .fault(row, format!("the restitution is {}", number(restitution, 5)))
+                .in_column(&table.header()[self.restitution])
+                .with_help(
+                    "it must be from 0 to 1, or to 1.2 with scatter; name the column \
+                     restitution_percent for per cents",
+                ));
+        }
+        if self.status.is_some_and(|status| is_bound(table, row, status)) {
+            let message = format!(
+                "the restitution {} is an upper bound, and no number for a law",
+                number(restitution, 5)
+            );
+            return Err(table.fault(row, message).in_column(STATUS).with_help(
+                "give the materials a relaxation or a strength and run the sweep again, name a measured value, or write \
+                 --as-elastic",
+            ));
+        }
+        let restitution_uncertainty = match self.uncertainty {
+            Some(column) => uncertainty(table, row, column)?,
+            None => None,
+        };
+        let contact_time = match self.contact_time {
+            Some(column) => positive(table, row, column, TIME)?,
+            None => None,
+        };
+        Ok(Point { speed, restitution, restitution_uncertainty, contact_time })
+    }
+}
+
+/// Returns whether a cell of a column of statuses says that the restitution is a bound.
+fn is_bound(table: &Table, row: usize, status: usize) -> bool {
+    table.text(row, status) == Status::Bound.word()
+}
+
+/// Whether the first cell of a column of speeds has a text that is no speed.
+fn is_text(table: &Table, column: usize) -> bool {
+    !table.is_missing(0, column) && table.number(0, column, SPEED).is_err()
+}
+
+/// Rejects a sweep that varies columns other than `may_vary`.
+fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError> {
+    for (column, header) in table.header().iter().enumerate() {
+        let is_same = |row: usize| table.text(row, column) == table.text(0, column);
+        // A sweep has each key twice, as written and in SI.
+        let is_twin = |other: &String| {
+            let ending = header.strip_prefix(other.as_str());
+            is_key(other) && ending.is_some_and(|ending| ending.starts_with('_'))
+        };
+        if is_key(header)
+            && !may_vary.contains(&column)
+            && !table.header().iter().any(is_twin)
+            && let Some(row) = (1..table.n_rows()).find(|row| !is_same(*row))
+        {
+            let error = table.fault(row, format!("the sweep varies {header} as well"));
+            return Err(error.in_column(header).with_help(
+                "a law is fitted to one pair of bodies: keep the rows of one, with their values in \
+                 the case or in an override of it",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn uncertainty(table: &Table, row: usize, column: usize) -> Result<Option<f64>, DataError> {
+    let found = positive(table, row, column, NUMBER)?;
+    let help = "the uncertainty of a restitution is at most 1; name the column \
+                restitution_uncertainty_percent for per cents";
+    match found {
+        Some(found) if found > MAX_UNCERTAINTY => Err(table.cell_fault(row, column, found, help)),
+        found => Ok(found),
+    }
+}
+
+/// Returns the positive number of a cell; `None` for a cell without a value.
+fn positive(
+    table: &Table,
+    row: usize,
+    column: usize,
+    dimension: [i32; 3],
+) -> Result<Option<f64>, DataError> {
+    if table.is_missing(row, column) {
+        return Ok(None);
+    }
+    let value = table.number(row, column, dimension)?;
+    if value <= 0.0 {
+        let help = "it must be greater than 0; leave the cell empty if there is none";
+        return Err(table.cell_fault(row, column, value, help));
+    }
+    Ok(Some(value))
+}
+
+const SIDES: [&str; 2] = ["first", "second"];
+
+impl MeasuredPairs {
+    /// Reads a table as [`Restitutions::read`] does; columns like `diameter_1_mm` and
+    /// `diameter_2_mm` distinguish several pairs. The scene shows which body is a wall.
+    ///
+    /// # Errors
+    /// The table has an error; the first one is returned.
+    pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        let columns = diameter_columns(table, scene)?;
+        let others: Vec<usize> = columns.iter().flatten().copied().collect();
+        let names = DIAMETERS.map(|[name, _]| name);
+        let wanted = Wanted { others: &others, names: &names, ..Wanted::default() };
+        let (data, rows) = read_rows(table, scene, wanted)?;
+        let diameters = rows.iter().map(|row| diameters(table, *row, columns));
+        let diameters: Vec<[Option<f64>; 2]> = diameters.collect::<Result<_, _>>()?;
+        Ok(Self::sorted(data, |point| diameters[point]))
+    }
+}
+
+fn diameter_columns(table: &Table, scene: &Scene) -> Result<[Option<usize>; 2], DataError> {
+    let [first, second] = DIAMETERS;
+    let columns = [table.find(&first)?, table.find(&second)?];
+    for ((column, body), side) in columns.iter().zip(scene.bodies()).zip(SIDES) {
+        if let (Some(column), None) = (column, body.diameter()) {
+            let (header, name) = (&table.header()[*column], &body.name());
+            let message = format!("{header} belongs to the {side} body, and \"{name}\" is a wall");
+            let error = table.header_fault(message).in_column(header);
+            return Err(error.with_help("leave the column out, or take a case of two spheres"));
+        }
+    }
+    Ok(columns)
+}
+
+fn diameters(
+    table: &Table,
+    row: usize,
+    columns: [Option<usize>; 2],
+) -> Result<[Option<f64>; 2], DataError> {
+    let mut diameters = [None, None];
+    for (diameter, column) in diameters.iter_mut().zip(columns) {
+        let Some(column) = column else { continue };
+        let value = table.number(row, column, LENGTH)?;
+        if value <= 0.0 {
+            return Err(table.cell_fault(row, column, value, "it must be greater than 0"));
+        }
+        *diameter = Some(value);
+    }
+    Ok(diameters)
+}
