@@ -9,7 +9,7 @@ use crate::pages::{Page, root};
 const TOP: [&str; 8] =
     ["crates/", ".ci/", "cases/", "docs/", "fuzz/", "meshes/", "validation/", "clippy.toml"];
 /// Crates outside `crates/`, and their folders.
-const APART: [(&str, &str); 2] = [("fem-fuzz", "fuzz"), ("fem-validate", "validation")];
+pub const APART: [(&str, &str); 2] = [("fem-fuzz", "fuzz"), ("fem-validate", "validation")];
 /// Placeholders in paths.
 const PLACEHOLDERS: [&str; 5] = ["NAME", "CASE", "<", "*", "…"];
 /// Lists of the pages of docs/: the index, and the summary from which mdBook makes a site.

@@ -1,13 +1,12 @@
-//! The files of `fem-run validate`: the page, its table and its pictures.
+//! The files of the program: the page, its table and its pictures.
 
 use std::fs;
 use std::path::Path;
 
+use fem::results::{PROGRAM, SUMMARY_FILE};
+use fem_command::Failure;
 use fem_validate::{ClaimResult, page};
 use serde_json::json;
-
-use crate::text::failure::Failure;
-use fem::results::{PROGRAM, SUMMARY_FILE};
 
 pub const PAGE_FILE: &str = "index.html";
 /// The table, one row per check.
