@@ -10,7 +10,7 @@ use serde_json::Value;
 
 const COMMAND: &str = "fem-run";
 /// Crates that contain the command: the Python module, and programs of developers.
-const WITH_COMMAND: [&str; 2] = ["fem-python", "fem-validate"];
+const WITH_COMMAND: [&str; 3] = ["fem-python", "fem-tools", "fem-validate"];
 
 /// Crates that compute on meshes: cases are read and changed without them.
 const SOLVERS: [&str; 8] = [

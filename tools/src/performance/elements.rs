@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use fem_explicit::FreeMotion;
 
-use crate::bodies::{Error, Kind, mesh_and_glass};
-use crate::median;
-use crate::plain::Plain;
+use super::bodies::{Error, Kind, mesh_and_glass};
+use super::plain::Plain;
+use crate::timing::median;
 
 /// Element sizes at the contact, µm.
 pub const SIZES: [u32; 3] = [60, 28, 14];

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::collide::{Fault, Numbers, signed, simulation};
+use super::collide::{Fault, Numbers, signed, simulation};
 
-const BALL: &str = include_str!("../../../../validation/soft_spheres/ball_on_wall.toml");
-const TWO_BALLS: &str = include_str!("../../../../validation/soft_spheres/two_balls.toml");
-const STEEL: &str = include_str!("../../../../validation/soft_spheres/steel_on_rubber.toml");
+const BALL: &str = include_str!("../../../validation/soft_spheres/ball_on_wall.toml");
+const TWO_BALLS: &str = include_str!("../../../validation/soft_spheres/two_balls.toml");
+const STEEL: &str = include_str!("../../../validation/soft_spheres/steel_on_rubber.toml");
 
 const NU_49: &str = "material.rubber.poissons_ratio=0.49";
 const RELAXING: &str = "material.rubber.relaxation={ acts_on = 'shear', terms = \

@@ -9,7 +9,7 @@ use std::path::Path;
 /// scaling, so that the cost of an effect shows over many steps.
 const FINE: [&str; 3] =
     ["accuracy.tolerance='0.3 %'", "mesh.staggered=false", "time.mass_scaling=2e-4"];
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
 /// Two equal bodies: the smaller one becomes like the larger one.
 const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
 

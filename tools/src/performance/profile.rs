@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::bodies::Error;
-use crate::processes::command;
+use super::bodies::Error;
+use super::processes::command;
 
 /// The phases and parts of their functions' names; the first match counts.
 const PHASES: [(&str, &[&str]); 9] = [
@@ -26,7 +26,7 @@ const CASES: [(&str, &str); 2] = [("glass_0.5ms", "default"), ("glass_0.5ms_14um
 fn shares(case: &str) -> Result<Option<Vec<f64>>, Error> {
     let scratch = tempfile::tempdir()?;
     let (samples, out) = (scratch.path().join("samples"), scratch.path().join("out"));
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../cases/{case}.toml"));
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../cases/{case}.toml"));
     let mut shares = vec![0.0; PHASES.len() + 2];
     for _ in 0..RUNS {
         let recorded = Command::new("perf")

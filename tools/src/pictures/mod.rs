@@ -1,22 +1,14 @@
 //! The pictures of the pages in `docs/`, all made by one command from the shipped cases.
 //!
-//! `cargo run --release -p fem-run --example pictures -- docs/images [NAME...]`
+//! `cargo run --release -p fem-tools -- pictures docs/images [NAME...]`
 //!
 //! Each picture is what a command of the program writes, in a temporary folder: figures as SVG, and pages as PNG by a
 //! headless Chromium. `CHROMIUM` names the browser if it is not `chromium` on the path. Without a browser, or without the
 //! browser page that `crates/fem-page/build.sh` builds, these pictures stay as they are. With names, only the pictures
 //! whose file names contain one of them are made.
 
-#![allow(
-    clippy::disallowed_macros,
-    clippy::disallowed_methods,
-    reason = "an example that writes files and prints what it wrote"
-)]
-
-#[path = "pictures/list.rs"]
 mod list;
 
-use std::error::Error;
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
@@ -24,6 +16,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 use std::{env, fs, thread};
 
+use crate::Error;
 use list::{OWN_CASES, PICTURES, Picture, Source};
 
 /// The page that `crates/fem-page/build.sh` builds.
@@ -31,13 +24,15 @@ const PAGE: &str = "target/page/index.html";
 /// Time in which the browser page computes its first collision.
 const PATIENCE: Duration = Duration::from_secs(8);
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let mut words = env::args().skip(1);
+/// Makes the pictures in the folder of the first word, those that the other words name.
+pub fn run(words: &[String]) -> Result<(), Error> {
+    let mut words = words.iter();
     let images = words.next().ok_or("name the folder of the pictures, such as docs/images")?;
     let (names, root) = (words.collect::<Vec<_>>(), env::current_dir()?);
     let images = root.join(images);
-    let is_chosen =
-        |one: &&Picture| names.is_empty() || names.iter().any(|name| one.name.contains(&**name));
+    let is_chosen = |one: &&Picture| {
+        names.is_empty() || names.iter().any(|name| one.name.contains(name.as_str()))
+    };
     let place = tempfile::tempdir()?;
     fill(place.path(), &root)?;
     env::set_current_dir(place.path())?;
@@ -45,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for picture in PICTURES.iter().filter(is_chosen) {
         for line in picture.commands {
             if !ran.contains(line) {
-                run(line)?;
+                run_command(line)?;
                 ran.push(line);
             }
         }
@@ -67,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Fills a folder with the cases, the data and the sweeps that the commands read.
-fn fill(place: &Path, root: &Path) -> Result<(), Box<dyn Error>> {
+fn fill(place: &Path, root: &Path) -> Result<(), Error> {
     for folder in ["cases", "validation/data"] {
         fs::create_dir_all(place.join(folder))?;
         for entry in fs::read_dir(root.join(folder))? {
@@ -82,7 +77,7 @@ fn fill(place: &Path, root: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 /// Runs a command of the program; its result is the picture, and what it prints is not shown twice.
-fn run(line: &str) -> Result<(), Box<dyn Error>> {
+fn run_command(line: &str) -> Result<(), Error> {
     let words = ["fem-run"].into_iter().chain(line.split_whitespace()).chain(["--quiet"]);
     match fem_command::run(words.map(Into::into)) {
         0 => Ok(()),
@@ -103,7 +98,7 @@ fn on_paper(svg: &str) -> String {
 
 /// Serves a page to one browser and returns its address. The page loads an image that comes after [`PATIENCE`], for which
 /// the browser waits before it takes a screenshot; a page that computes in a worker is complete by then.
-fn served(page: String) -> Result<String, Box<dyn Error>> {
+fn served(page: String) -> Result<String, Error> {
     let listener = TcpListener::bind("127.0.0.1:0")?;
     let address = format!("http://{}/", listener.local_addr()?);
     let page = page.replacen("</body>", "<img src=\"late\" alt=\"\" hidden></body>", 1);
@@ -136,7 +131,7 @@ fn answer(mut stream: std::net::TcpStream, page: &str) -> std::io::Result<()> {
 }
 
 /// Writes a screenshot of a page; says so if there is no browser.
-fn shoot(page: &str, [width, height]: [u32; 2], target: &Path) -> Result<(), Box<dyn Error>> {
+fn shoot(page: &str, [width, height]: [u32; 2], target: &Path) -> Result<(), Error> {
     let browser = env::var_os("CHROMIUM").map_or("chromium".into(), PathBuf::from);
     let mut command = Command::new(&browser);
     command.stdout(Stdio::null()).stderr(Stdio::null());

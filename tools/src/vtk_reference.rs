@@ -1,16 +1,9 @@
 //! Writes a `.vtu` of tricky values and, as JSON, the values that a reader must find in it.
 //!
-//! `write_reference FILE.vtu FILE.json [inline | appended | raw]`; then
+//! `fem-tools vtk_reference FILE.vtu FILE.json [inline | appended | raw]`; then
 //! `.ci/check_vtk.py reference FILE.vtu FILE.json`.
 
-#![allow(
-    clippy::disallowed_methods,
-    clippy::disallowed_macros,
-    reason = "an example says what it is called with"
-)]
-
-use std::process::ExitCode;
-
+use crate::Error;
 use fem_vtk::{Encoding, VtuWriter};
 use serde_json::{Map, Value, json};
 
@@ -18,24 +11,14 @@ use serde_json::{Map, Value, json};
 /// components fill three, and 65 * 65 doubles leave a short second block.
 const N_SIDE: usize = 64;
 
-fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (vtu, json, encoding) = match arguments.as_slice() {
-        [vtu, json] => (vtu, json, Encoding::default()),
-        [vtu, json, name] if name == "inline" => (vtu, json, Encoding::InlineBase64),
-        [vtu, json, name] if name == "appended" => (vtu, json, Encoding::AppendedBase64),
-        [vtu, json, name] if name == "raw" => (vtu, json, Encoding::AppendedRaw),
-        _ => {
-            eprintln!("usage: write_reference FILE.vtu FILE.json [inline | appended | raw]");
-            return ExitCode::from(2);
-        }
-    };
-    match write(vtu, json, encoding) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
+/// Writes the two files in an encoding.
+pub fn run(words: &[String]) -> Result<(), Error> {
+    match words {
+        [vtu, json] => write(vtu, json, Encoding::default()),
+        [vtu, json, name] if name == "inline" => write(vtu, json, Encoding::InlineBase64),
+        [vtu, json, name] if name == "appended" => write(vtu, json, Encoding::AppendedBase64),
+        [vtu, json, name] if name == "raw" => write(vtu, json, Encoding::AppendedRaw),
+        _ => Err("vtk_reference FILE.vtu FILE.json [inline | appended | raw]".into()),
     }
 }
 
@@ -53,7 +36,7 @@ fn tricky(index: usize) -> f64 {
     }
 }
 
-fn write(vtu: &str, json_path: &str, encoding: Encoding) -> Result<(), Box<dyn std::error::Error>> {
+fn write(vtu: &str, json_path: &str, encoding: Encoding) -> Result<(), Error> {
     let row = N_SIDE + 1;
     let points: Vec<[f64; 3]> = (0..row * row)
         .map(|k| [(k % row) as f64 / 3.0, -1e-5 * (k / row) as f64, tricky(k)])

@@ -8,9 +8,9 @@ use std::time::Instant;
 
 use serde_json::Value;
 
-use crate::bodies::Error;
-use crate::elements::of_plain_code;
-use crate::median;
+use super::bodies::Error;
+use super::elements::of_plain_code;
+use crate::timing::median;
 
 const RUNS: usize = 9;
 
@@ -45,7 +45,7 @@ impl Timed {
         let (commands, rest): (Vec<&str>, Vec<&str>) =
             rest.iter().partition(|word| !word.starts_with("--"));
         let folder = scratch.join(number.to_string());
-        let case = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../cases/{case}.toml"));
+        let case = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../cases/{case}.toml"));
         let out = ["--out".into(), folder.display().to_string()];
         let own = if commands.is_empty() { &out[..] } else { &[] };
         let arguments = (commands.iter().map(ToString::to_string))

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use fem::effects::{Effect, FiniteStrain, NeglectError};
 
-use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
+use super::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
 const STRAINS: [f64; 3] = [0.2, 0.4, 0.7];
 const POISSONS_RATIOS: [f64; 2] = [0.2, 0.45];

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
+use super::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
 /// Contact radius over the sphere's radius, according to Hertz.
 const STRAINS: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85];

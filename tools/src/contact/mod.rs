@@ -1,18 +1,12 @@
 //! Compares the contact methods: results and cost. Writes the table of docs/contact.md.
 //!
-//! `cargo run --release -p fem-run --example contact -- docs/contact.md`
+//! `cargo run --release -p fem-tools -- contact docs/contact.md`
 //!
 //! Apart from its last column the table is the same on every machine.
 
-#![allow(clippy::disallowed_macros, reason = "a study prints what it found")]
-
-#[path = "page/mod.rs"]
-mod page;
-#[path = "contact/rows.rs"]
 mod rows;
 
-use std::path::Path;
-
+use crate::{Error, page};
 use rows::rows;
 
 const HEAD: &str = "\
@@ -23,7 +17,8 @@ element updates | time, ms |
 /// Number of runs; the shortest counts, since other programs share the caches.
 const RUNS: usize = 7;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// Writes the table into a page, or prints it.
+pub fn run(words: &[String]) -> Result<(), Error> {
     let simulations: Vec<_> = rows().iter().map(|row| (*row, row.simulation())).collect();
     let mut lines = vec![(f64::INFINITY, Vec::new()); simulations.len()];
     // Runs take turns, so a drift of the machine affects all alike.
@@ -41,15 +36,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         eprint!("{line}");
         table.push_str(&line);
     }
-    match std::env::args().nth(1) {
-        Some(path) => page::put(Path::new(&path), "table", &table)?,
-        None => print!("{table}"),
-    }
-    Ok(())
+    page::put_or_print(words.first(), "table", &table)
 }
 
 /// Returns the processor time of this thread, as Linux counts it.
-fn seconds_on_core() -> Result<f64, Box<dyn std::error::Error>> {
+fn seconds_on_core() -> Result<f64, Error> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat")?;
     Ok(1e-9 * text.split(' ').next().unwrap_or_default().parse::<f64>()?)
 }

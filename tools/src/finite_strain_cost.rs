@@ -1,15 +1,10 @@
 //! Cost of an element update at finite strain over that at small strain, of one body that vibrates: `cargo run
-//! --release -p fem-explicit --example finite_strain_cost`. It prints one line per law: nanoseconds (the least of
+//! --release -p fem-tools -- finite_strain_cost`. It prints one line per law: nanoseconds (the least of
 //! many turns, in which all laws alternate), and the ratio.
-
-#![allow(
-    clippy::disallowed_methods,
-    clippy::disallowed_macros,
-    reason = "an example prints what it times"
-)]
 
 use std::time::Instant;
 
+use crate::Error;
 use fem_explicit::FreeMotion;
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -52,9 +47,8 @@ impl Timed {
     }
 }
 
-type Error = Box<dyn std::error::Error>;
-
-fn main() -> Result<(), Error> {
+/// Prints the cost of each law.
+pub fn run(_: &[String]) -> Result<(), Error> {
     // The default mesh of the glass pair's larger sphere.
     let disc = HalfDisc {
         radius: 11.1e-3,

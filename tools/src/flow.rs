@@ -1,18 +1,15 @@
 //! Steel balls that flow plastically on a rigid wall, from the speed of first yield v_y on: the restitution, the plastic work,
-//! and the elastic energy that stays locked in. `cargo run --release -p fem-explicit --example flow -- 8` takes eight
+//! and the elastic energy that stays locked in. `cargo run --release -p fem-tools -- flow 8` takes eight
 //! elements per contact radius.
-
-#![allow(clippy::disallowed_macros, reason = "an example prints what it computes")]
 
 use std::f64::consts::PI;
 
+use crate::Error;
 use fem_collision::{Account, Approach, BodyInput, Expectation, OutputRequest};
 use fem_explicit::{ExplicitBodies, ModelParts, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, FlowRule, Material};
 use fem_mesh::{HalfDisc, Side};
-
-type Error = Box<dyn std::error::Error>;
 
 /// Radius, m; density, kg/m³; Young's modulus and yield strength, Pa; Poisson's ratio.
 const RADIUS: f64 = 5e-3;
@@ -21,8 +18,9 @@ const YOUNGS_MODULUS: f64 = 207e9;
 const YIELD_STRENGTH: f64 = 1e9;
 const NU: f64 = 0.3;
 
-fn main() -> Result<(), Error> {
-    let elements_per_radius = std::env::args().nth(1).map_or(Ok(8.0), |text| text.parse())?;
+/// Prints one line per speed.
+pub fn run(words: &[String]) -> Result<(), Error> {
+    let elements_per_radius = words.first().map_or(Ok(8.0), |text| text.parse())?;
     let contact_modulus = YOUNGS_MODULUS / (1.0 - NU * NU);
     // Johnson (1985), Contact Mechanics, section 11.5: p0 = 1.6 Y.
     let ratio = YIELD_STRENGTH / contact_modulus;

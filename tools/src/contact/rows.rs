@@ -15,17 +15,17 @@ pub struct Scene {
 
 const ELASTIC: Scene = Scene {
     name: "elastic",
-    text: include_str!("../../../../cases/glass_0.5ms_elastic.toml"),
+    text: include_str!("../../../cases/glass_0.5ms_elastic.toml"),
     limit: [1.0, 62.818e-6, 107.99],
 };
 const ALL: Scene = Scene {
     name: "all moduli relax",
-    text: include_str!("../../../../cases/glass_0.5ms.toml"),
+    text: include_str!("../../../cases/glass_0.5ms.toml"),
     limit: [0.92763, 62.445e-6, 104.49],
 };
 const SHEAR: Scene = Scene {
     name: "shear relaxes",
-    text: include_str!("../../../../cases/glass_0.5ms_elastic_bulk.toml"),
+    text: include_str!("../../../cases/glass_0.5ms_elastic_bulk.toml"),
     limit: [0.94811, 62.548e-6, 105.49],
 };
 

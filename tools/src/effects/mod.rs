@@ -1,28 +1,18 @@
 //! The cost of effects: time of a step, work and bytes of state, with the effect off and on. Writes the table of
 //! docs/effects.md.
 //!
-//! `cargo run --release -p fem-run --example effects -- docs/effects.md`
+//! `cargo run --release -p fem-tools -- effects docs/effects.md`
 //!
 //! Times are medians of runs that take turns, so that other work of the machine affects both alike. Updates and bytes
 //! are counters, the same on every machine.
 
-#![allow(
-    clippy::disallowed_macros,
-    clippy::disallowed_methods,
-    reason = "a benchmark has the clock and prints what it found"
-)]
-
-#[path = "page/machine.rs"]
-mod machine;
-#[path = "page/mod.rs"]
-mod page;
-#[path = "effects/rows.rs"]
 mod rows;
 
 use std::fmt::Write;
-use std::path::Path;
 use std::time::Instant;
 
+use crate::timing::median;
+use crate::{Error, page, timing};
 use rows::{Kept, ROWS, Row, Side, n_bytes};
 
 /// Runs with and without the effect.
@@ -36,17 +26,14 @@ struct Cost {
     bytes: usize,
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// Writes the table into a page, or prints it.
+pub fn run(words: &[String]) -> Result<(), Error> {
     let table = ROWS.iter().map(line).collect::<String>();
-    let machine = machine::machine();
+    let machine = timing::machine();
     let table = format!(
         "{machine}: medians of {N_RUNS} runs of each side, which take turns.\n\n{HEAD}{table}"
     );
-    match std::env::args().nth(1) {
-        Some(path) => page::put(Path::new(&path), "table", &table)?,
-        None => print!("{table}"),
-    }
-    Ok(())
+    page::put_or_print(words.first(), "table", &table)
 }
 
 const HEAD: &str = "\
@@ -65,7 +52,7 @@ fn line(row: &Row) -> String {
         }
     }
     let times: Vec<f64> =
-        costs.iter().map(|costs| median(costs.iter().map(|cost| cost.time))).collect();
+        costs.iter().map(|costs| median(costs.iter().map(|cost| cost.time).collect())).collect();
     let first: Vec<&Cost> = costs.iter().map(|costs| &costs[0]).collect();
     let mut line = format!("| `{}` | {} |", row.name, row.kind);
     let (on_time, on) = (times[times.len() - 1], first[first.len() - 1]);
@@ -81,7 +68,7 @@ fn line(row: &Row) -> String {
                 line,
                 " {:.1} | {on_time:.1} | {:.2} | {} | {} | {} | {} |",
                 times[0],
-                median(ratios),
+                median(ratios.collect()),
                 first[0].element_updates,
                 on.element_updates,
                 first[0].bytes,
@@ -117,10 +104,4 @@ fn cost(side: &Side, simulation: &fem::Simulation) -> Cost {
     spent += begin.elapsed();
     let element_updates = collision.element_updates.expect("explicit elements");
     Cost { time: 1e9 * spent.as_secs_f64() / element_updates as f64, element_updates, bytes }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
