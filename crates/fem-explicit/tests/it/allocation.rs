@@ -1,12 +1,9 @@
 //! Nothing is allocated inside a step: the allocator itself counts, for each thread.
 
-#[path = "it/common/mod.rs"]
-mod common;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use common::Pair;
+use crate::common::Pair;
 use fem_collision::{SnapshotInstant, SnapshotRequest};
 use fem_explicit::collide;
 use fem_material::ActsOn;
