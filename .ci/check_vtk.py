@@ -2,7 +2,7 @@
 """Reads .vtu files with VTK's own reader and with meshio, and fails on the first difference.
 
     check_vtk.py reference FILE.vtu FILE.json   every array against the values in the JSON, which
-                                                crates/fem-vtk/examples/write_reference.rs wrote
+                                                tools/src/vtk_reference.rs wrote
     check_vtk.py results DIR                    a result folder of fem-run: the files that its .pvd
                                                 lists, their times, names and arrays
 
@@ -122,7 +122,7 @@ def check_reference(path, json_path):
                 for name, array in reference[section].items()
             }
     except (ValueError, KeyError, TypeError) as error:
-        raise Failure(f"{json_path}: not written by write_reference: {error!r}") from error
+        raise Failure(f"{json_path}: not written by fem-tools: {error!r}") from error
     for reader, read in (("VTK", read_with_vtk), ("meshio", read_with_meshio)):
         compare_files(f"{path}: {reader}", read(path), expected)
     readers = f"VTK {vtk.vtkVersion.GetVTKVersion()} and meshio {meshio.__version__}"

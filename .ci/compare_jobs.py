@@ -123,7 +123,7 @@ CRADLE = ["cradle", "--length", "20 cm ± 1 mm", "--diameters", "22.2 mm,15.9 mm
 CLAIMS = ["condensed_explicit", "condensed_limits", "condensed_ting", "contact_patch",
           "critical_step", "default_settings", "invariance", "kratos", "paper_contours",
           "paper_restitution", "paper_velocities", "uniform_stress"]
-COMMANDS = ["check", "mesh", "sweep", "validate", "measure", "fit", "calibrate", "invert", "export",
+COMMANDS = ["check", "mesh", "sweep", "measure", "fit", "calibrate", "invert", "export",
             "cradle", "completions"]
 
 

@@ -186,7 +186,7 @@ def run_tests(folder, tests):
     """Whether the tests of a crate compile and pass, and the names of those that fail."""
     crate, _, names = tests.partition(":")
     env = dict(os.environ, CARGO_TARGET_DIR=os.environ.get("CARGO_TARGET_DIR", str(ROOT / "target/faults")))
-    command = ["cargo", "test", "--locked", "-p", crate, "--lib", "--bins", "--tests", "--no-run"]
+    command = ["cargo", "test", "--locked", "-p", crate, "--tests", "--no-run"]
     built = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True)
     if built.returncode:
         return False, False, [line for line in built.stderr.splitlines() if line.startswith("error")][:2]

@@ -25,10 +25,10 @@ fn pictures_of(result: &ClaimResult) -> impl Iterator<Item = (String, &Figure)> 
 /// names no machine, so it changes only with the results.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
-        "<!-- Written by `fem-run validate --table validation/claims.md`; not by hand. -->\n\
+        "<!-- Written by `fem-validate --table validation/claims.md`; not by hand. -->\n\
          # Claims and their results\n\n\
          Each claim is a folder in this directory with cases, references with their \
-         sources, and tolerances with their reasons. `fem-run validate` runs all claims and writes a \
+         sources, and tolerances with their reasons. `fem-validate` runs all claims and writes a \
          page with the figures; the same command writes this table.\n\n\
          The *kind* of a reference shows how independent it is: **analytic**, a closed form or a \
          limit; **published**, a published number; **cross-code**, a result of another program; \
@@ -74,7 +74,7 @@ pub fn hard_scenes(results: &[ClaimResult]) -> String {
     let hard = results.iter().filter(|result| has_hard_scenes(&result.claim));
     let tables = hard.flat_map(|result| &result.findings.tables);
     let mut text = String::from(
-        "<!-- Written by `fem-run validate hard --scenes validation/hard/scenes.md`; not by hand. -->\n\
+        "<!-- Written by `fem-validate hard --scenes validation/hard/scenes.md`; not by hand. -->\n\
          # Hard scenes\n\n\
          Each axis goes from one extreme to the other, with every model: the result, or the reason why there is \
          none. [claim.toml](claim.toml) and the files beside it list the scenes, their references and the expected \

@@ -61,6 +61,11 @@ mod source;
 mod sweep;
 mod validate;
 
+/// The JSON schema of case files, for editors that complete keys and mark errors.
+pub const CASE_SCHEMA: &str = include_str!("../schemas/case.json");
+/// The JSON schema of sweep files.
+pub const SWEEP_SCHEMA: &str = include_str!("../schemas/sweep.json");
+
 pub use case::{Case, read_data_file, text_at};
 pub use case_edit::central_change;
 pub use error::CaseError;

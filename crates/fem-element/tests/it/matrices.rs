@@ -1,7 +1,9 @@
 //! Matrices of single elements, and the two kinds against each other.
 
 use crate::common::{BULK, DISTORTED, KINDS, SHEAR, noise};
-use fem_element::{ElementMatrix, QuadGeometry, b_bar, largest_eigenvalue, mean_gradient};
+use fem_element::{
+    ElementMatrix, QuadGeometry, b_bar, largest_eigenvalue, mean_gradient, mean_gradient_stiffness,
+};
 use nalgebra::SVector;
 
 type Displacement = SVector<f64, 8>;
@@ -127,4 +129,18 @@ fn largest_eigenvalue_is_above_every_quotient() {
         best = best.max(2.0 * energy(&matrix, &u) / inertia);
     }
     assert!(best <= largest && best > 0.3 * largest, "{best} {largest}");
+}
+
+/// Both functions give the same stiffness matrix of a skew quad with a corner on the axis.
+#[test]
+fn the_lower_triangle_is_that_of_the_whole_matrix() {
+    let geometry = QuadGeometry::new(&[[0.0, 0.1], [1.0, 0.0], [1.3, 0.9], [0.2, 1.1]]);
+    let (bulk_modulus, shear_modulus) = (3.0, 1.7);
+    let whole = mean_gradient(&geometry).combine(bulk_modulus, shear_modulus);
+    let lower = mean_gradient_stiffness(&geometry, bulk_modulus, shear_modulus);
+    let places = (0..8).flat_map(|i| (0..=i).map(move |j| (i, j)));
+    for (place, value) in places.zip(lower) {
+        // Rounding of some sums.
+        assert!((value - whole[place]).abs() < 1e-14 * whole.amax(), "{place:?}");
+    }
 }

@@ -1,5 +1,6 @@
 //! The explicit method from outside, in one program: linked once, its tests run side by side.
 
+mod allocation;
 mod bulk_viscosity;
 mod collision;
 mod common;

@@ -111,6 +111,7 @@ pub fn stem_of(path: &Path) -> String {
     stem.replace(|c: char| c.is_control() || c == ':' || c == '\\', "_")
 }
 
+/// Parses an option that counts something.
 pub fn parse_count(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "give a whole number, at least 1".to_string())
 }

@@ -14,7 +14,6 @@ pub mod schema;
 pub mod shell;
 pub mod sweep;
 pub mod validate;
-mod validation_files;
 
 use clap::Subcommand;
 
@@ -55,7 +54,7 @@ impl Command {
             Self::Materials(arguments) => materials::execute(&arguments),
             Self::Sweep(arguments) => sweep::execute(&arguments),
             Self::Accuracy(arguments) => accuracy::execute(&arguments),
-            Self::Validate(arguments) => validate::execute(&arguments),
+            Self::Validate(arguments) => validate::execute(arguments),
             Self::Fit(arguments) => fit::execute(&arguments),
             Self::Calibrate(arguments) => calibrate::execute(&arguments),
             Self::Invert(arguments) => invert::execute(&arguments),

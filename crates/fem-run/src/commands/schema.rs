@@ -1,7 +1,6 @@
 //! `fem-run schema`: the JSON schema of case and sweep files.
 
-use fem_case::json_schema;
-use serde_json::Value;
+use fem_case::{CASE_SCHEMA, SWEEP_SCHEMA};
 
 use crate::text::{Failure, standard_output};
 
@@ -27,13 +26,8 @@ enum Of {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let schema = match arguments.of {
-        Of::Case => json_schema::of_cases(),
-        Of::Sweep => json_schema::of_sweeps(),
-    };
-    standard_output::print(&text_of(&schema))
-}
-
-pub fn text_of(schema: &Value) -> String {
-    format!("{schema:#}\n")
+    standard_output::print(match arguments.of {
+        Of::Case => CASE_SCHEMA,
+        Of::Sweep => SWEEP_SCHEMA,
+    })
 }

@@ -263,6 +263,7 @@ impl Work<'_> {
     }
 }
 
+/// Returns so many threads, or one per processor.
 pub fn thread_pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build();
     pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))

@@ -90,6 +90,7 @@ impl Interrupt {
         self.is_watched.store(true, Ordering::Relaxed);
     }
 
+    /// Whether an end is requested; from now on a request is seen to.
     pub fn is_requested(&self) -> bool {
         self.watch();
         self.is_requested.load(Ordering::Relaxed)

@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 
 use fem_case::engineering::show;
 use fem_collision::{Monitor, Progress};
-use fem_validate::Observer;
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::text::standard_output::one_line;
@@ -135,11 +134,11 @@ pub struct ItemProgress {
     what: &'static str,
     n_items: usize,
     n_done: AtomicUsize,
-    started: Instant,
     display: Display,
 }
 
 impl ItemProgress {
+    /// Creates the progress of `n_items` items that the plural `what` names.
     pub fn new(interrupt: Interrupt, what: &'static str, n_items: usize, quiet: bool) -> Self {
         let length = n_items as u64 * TICKS;
         let template = "{bar:32} {percent:>3} %  {msg}  {elapsed}, {eta} left";
@@ -154,23 +153,24 @@ impl ItemProgress {
             what,
             n_items,
             n_done: AtomicUsize::new(0),
-            started: Instant::now(),
             display,
         }
     }
 
+    /// Whether the user or [`Self::abort`] has asked to end.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.is_requested() || self.is_aborted.load(Ordering::Relaxed)
     }
 
-    pub fn abort(&self) {
+    pub(crate) fn abort(&self) {
         self.is_aborted.store(true, Ordering::Relaxed);
     }
 
-    pub fn begin(&self) -> ItemMonitor<'_> {
+    pub(crate) fn begin(&self) -> ItemMonitor<'_> {
         ItemMonitor { progress: self, ticks: 0 }
     }
 
+    /// Counts an item as done; where there is no bar, a line tells what came of it.
     pub fn finish_item(&self, line: &str) {
         let n_done = self.n_done.fetch_add(1, Ordering::Relaxed) + 1;
         let n_items = self.n_items;
@@ -180,19 +180,9 @@ impl ItemProgress {
         self.display.line(&format!("[{n_done}/{n_items}] {}", one_line(line)));
     }
 
+    /// Removes the bar.
     pub fn finish(&self) {
         self.display.finish();
-    }
-}
-
-/// Claims are timed by the clock of their progress.
-impl Observer for ItemProgress {
-    fn clock(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.is_stopped()
     }
 }
 

@@ -118,7 +118,7 @@ impl ResultFolder {
     }
 
     /// Claims a folder where nothing is left to recover.
-    pub fn claim_recovered(
+    pub(crate) fn claim_recovered(
         out: &Path,
         longest_name: &str,
         origin: Option<Origin>,
@@ -145,12 +145,13 @@ impl ResultFolder {
         Ok(folder)
     }
 
+    /// Returns the hidden folder for the files.
     pub fn path(&self) -> &Path {
         self.hidden.as_ref().map_or(&self.target, HiddenFolder::path)
     }
 
     /// Writes a file into the final place at once, which may hold an old result or not exist yet.
-    pub fn write_ahead(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+    pub(crate) fn write_ahead(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         match fs::create_dir(&self.target) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
             _ => {}

@@ -67,6 +67,7 @@ impl Origin {
         self.with_options(inputs)
     }
 
+    /// Returns the digest.
     pub fn made_from(&self) -> &str {
         &self.made_from
     }

@@ -63,14 +63,18 @@ pub fn with_usual_permissions(builder: &mut tempfile::Builder<'_, '_>, mode: u32
 /// A kind of file that a command writes where the user says. It replaces files of its own kind only.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnedFileKind {
+    /// The noun in messages.
     pub what: &'static str,
+    /// The extension of its names.
     pub extension: &'static str,
     /// Text in the first lines of every such file.
     pub marker: &'static str,
+    /// The option that names such a file.
     pub option: &'static str,
 }
 
 impl OwnedFileKind {
+    /// Rejects a path with another extension, or of a file of another kind.
     pub fn check(&self, path: &Path) -> Result<(), Failure> {
         let shown = shown(path);
         let Self { what, extension, option, .. } = self;

@@ -7,6 +7,7 @@ use super::failure::Failure;
 
 pub use fem_report::number_text::one_line;
 
+/// Returns a path on one line.
 pub fn shown(path: &Path) -> String {
     one_line(&path.display().to_string())
 }

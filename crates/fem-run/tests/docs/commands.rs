@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use crate::pages::{Page, root};
+use crate::pointers::APART;
 use crate::shell::{Shown, commands, words};
 
 /// Folders of the repository that commands read.
@@ -15,7 +16,12 @@ fn target(command: &Shown) -> Option<PathBuf> {
         let place = command.words.iter().position(|word| word == flag)?;
         command.words.get(place + 1)
     };
-    let package = root().join("crates").join(behind("-p")?);
+    let name = behind("-p")?;
+    let apart = APART.iter().find(|(apart, _)| apart == name);
+    let package = match apart {
+        Some((_, folder)) => root().join(folder),
+        None => root().join("crates").join(name),
+    };
     match (behind("--example"), behind("--test")) {
         (Some(name), _) => Some(package.join(format!("examples/{name}.rs"))),
         (_, Some(name)) => Some(package.join(format!("tests/{name}/main.rs"))),

@@ -3,7 +3,7 @@
 
 use crate::pages::Page;
 
-#[path = "../../examples/contact/rows.rs"]
+#[path = "../../../../tools/src/contact/rows.rs"]
 mod rows;
 
 /// Returns the cells of the table's lines.
@@ -19,10 +19,10 @@ fn lines() -> Vec<Vec<String>> {
 #[ignore = "7 s; .ci/run runs it"]
 fn contact_page_table_equals_computed_results() {
     let (rows, lines) = (rows::rows(), lines());
-    assert_eq!(rows.len(), lines.len(), "cargo run --release -p fem-run --example contact");
+    assert_eq!(rows.len(), lines.len(), "cargo run --release -p fem-tools -- contact");
     for (row, line) in rows.iter().zip(lines) {
         let of_row = [row.scene.name.into(), format!("`{}`", row.method), row.factor.to_string()];
-        assert_eq!(line[..3], of_row, "cargo run --release -p fem-run --example contact");
+        assert_eq!(line[..3], of_row, "cargo run --release -p fem-tools -- contact");
         if row.factor == 1.0 || row.method == "massless" {
             let (time, line) = line.split_last().expect("cells");
             assert_eq!(line, row.cells(&row.simulation().run(&mut ())));

@@ -9,7 +9,7 @@ use crate::pages::Page;
 
 // The benchmark uses the whole module.
 #[allow(dead_code)]
-#[path = "../../examples/effects/rows.rs"]
+#[path = "../../../../tools/src/effects/rows.rs"]
 mod rows;
 
 use rows::ROWS;
@@ -33,7 +33,7 @@ fn effects_page_has_the_rows_of_the_benchmark() {
         lines().iter().map(|cells| [cells[0].replace('`', ""), cells[1].clone()]).collect();
     let expected: Vec<[String; 2]> =
         ROWS.iter().map(|row| [row.name.into(), row.kind.into()]).collect();
-    assert_eq!(shown, expected, "cargo run --release -p fem-run --example effects writes the page");
+    assert_eq!(shown, expected, "cargo run --release -p fem-tools -- effects writes the page");
 }
 
 /// Every effect that explicit elements compute in some scene of the table has a row, and nothing else has.

@@ -30,3 +30,6 @@ mod printed;
 mod prose;
 mod shell;
 mod shipped_cases;
+
+/// The program that these tests run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_fem-run");

@@ -41,7 +41,7 @@ fn every_picture_is_made_shown_and_described() {
             shown.insert(path);
         }
     }
-    let list = include_str!("../../examples/pictures/list.rs");
+    let list = include_str!("../../../../tools/src/pictures/list.rs");
     let mut n_bytes = 0;
     for entry in fs::read_dir(root().join("docs/images")).unwrap() {
         let entry = entry.unwrap();

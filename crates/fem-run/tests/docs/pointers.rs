@@ -6,10 +6,20 @@ use std::fs;
 use crate::pages::{Page, root};
 
 /// Folders at the top that a path may begin with; any other path begins in `crates/`.
-const TOP: [&str; 8] =
-    ["crates/", ".ci/", "cases/", "docs/", "fuzz/", "meshes/", "validation/", "clippy.toml"];
+const TOP: [&str; 9] = [
+    "crates/",
+    ".ci/",
+    "cases/",
+    "docs/",
+    "fuzz/",
+    "meshes/",
+    "tools/",
+    "validation/",
+    "clippy.toml",
+];
 /// Crates outside `crates/`, and their folders.
-const APART: [(&str, &str); 2] = [("fem-fuzz", "fuzz"), ("fem-validate", "validation")];
+pub const APART: [(&str, &str); 3] =
+    [("fem-fuzz", "fuzz"), ("fem-tools", "tools"), ("fem-validate", "validation")];
 /// Placeholders in paths.
 const PLACEHOLDERS: [&str; 5] = ["NAME", "CASE", "<", "*", "…"];
 /// Lists of the pages of docs/: the index, and the summary from which mdBook makes a site.

@@ -13,3 +13,6 @@ mod sweeps;
 mod texts;
 mod validate;
 mod workspace_structure;
+
+/// The program that these tests run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_fem-run");

@@ -3,5 +3,6 @@
 mod collection;
 mod fixtures;
 mod hostile_files;
+mod memory;
 mod rejected_inputs;
 mod round_trip;

@@ -261,7 +261,7 @@ mod tests {
         }
     }
 
-    /// The half of the suite that takes seconds; `fem-run validate hard` runs all of it.
+    /// The half of the suite that takes seconds; `fem-validate hard` runs all of it.
     #[test]
     #[ignore = "15 s; .ci/run runs it"]
     fn quick_half_of_the_hard_suite_passes() {

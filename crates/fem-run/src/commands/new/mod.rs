@@ -4,11 +4,10 @@ use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use fem_case::{Case, json_schema};
-use serde_json::Value;
+use fem_case::{CASE_SCHEMA, Case};
 
 use crate::arguments::case::stem_of;
-use crate::commands::{materials, schema};
+use crate::commands::materials;
 use crate::text::{Failure, one_line, shown, standard_output};
 
 /// The text of a new case; `{…}` are placeholders.
@@ -25,6 +24,8 @@ const GRAVITY: &str = include_str!("gravity.toml");
 
 /// The schema next to the case, for editors.
 const SCHEMA_FILE: &str = "fem-run.schema.json";
+/// Identifies a schema of this program.
+const SCHEMA_TITLE: &str = "A case of fem-run";
 
 /// Write a case to start from, NAME.toml, with comments on what can be changed
 ///
@@ -154,15 +155,11 @@ fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
 
 /// Writes the schema unless another program's file is in the way; returns whether it did.
 fn write_schema(path: &Path) -> Result<bool, Failure> {
-    let schema = json_schema::of_cases();
-    if let Ok(old) = fs::read(path) {
-        let old: Value = serde_json::from_slice(&old).unwrap_or_default();
-        if old.get("title") != schema.get("title") {
-            return Ok(false);
-        }
+    if fs::read(path).is_ok_and(|old| !String::from_utf8_lossy(&old).contains(SCHEMA_TITLE)) {
+        return Ok(false);
     }
     let name = shown(path);
-    let written = fs::write(path, schema::text_of(&schema));
+    let written = fs::write(path, CASE_SCHEMA);
     written.map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))?;
     Ok(true)
 }

@@ -1,4 +1,4 @@
-//! Runs the command in a folder of its own.
+//! Runs a program, [`crate::PROGRAM`], in a folder of its own.
 
 #![allow(dead_code, reason = "no test file uses all of it")]
 
@@ -116,7 +116,7 @@ impl Place {
 
     /// Returns the command, to be started in this folder.
     pub fn command(&self, words: impl Words) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_fem-run"));
+        let mut command = Command::new(crate::PROGRAM);
         command.current_dir(self.0.path()).args(words.words());
         command
     }
