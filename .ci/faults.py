@@ -108,14 +108,14 @@ FAULTS = [
     ("measured_exponent", "fem-case:library", "(speed / reference).powf(self.exponent)",
      "(speed / reference).powf(-self.exponent)"),
     # Effects and error bars
-    ("energy_of_adhesion", "fem:adhesion", "energies.add(Account::Adhesion, lost);",
+    ("energy_of_adhesion", "fem-simulation:adhesion", "energies.add(Account::Adhesion, lost);",
      "energies.add(Account::Adhesion, 0.5 * lost);"),
-    ("input_difference", "fem:uncertain_inputs", "0.5 * (above - below)", "above - below"),
-    ("yield_in_error_bars", "fem:plastic_yield",
+    ("input_difference", "fem-simulation:uncertain_inputs", "0.5 * (above - below)", "above - below"),
+    ("yield_in_error_bars", "fem-simulation:plastic_yield",
      "Some((_, first)) if status.is_lacking => {", "Some((_, first)) if status.is_lacking && first.change().restitution > 9.0 => {"),
-    ("matters_before_the_run", "fem:what_matters", "let matters = is_physics || is_lacking && is_needed || is_warned;",
+    ("matters_before_the_run", "fem-simulation:what_matters", "let matters = is_physics || is_lacking && is_needed || is_warned;",
      "let matters = is_physics || is_lacking && is_needed; let _ = is_warned;"),
-    ("matters_after_the_run", "fem:what_matters",
+    ("matters_after_the_run", "fem-simulation:what_matters",
      "if let (Some(decision), false) = (own, warnings.is_empty()) { decision.matters = true; }", "let _ = own;"),
     # Files
     ("vtk_offsets", "fem-vtk", ".map(|cell| 4 * cell)", ".map(|cell| 4 * cell - 4)"),
@@ -146,7 +146,7 @@ FAULTS = [
     ("summary_cost_unit", "fem-run:result_folder", "1e9 * cost.solve_s / updates as f64", "1e6 * cost.solve_s / updates as f64"),
     ("history_column", "fem-run:result_folder", '"contact_radius_m", "approach_m", "centre_pressure_pa"]',
      '"approach_m", "contact_radius_m", "centre_pressure_pa"]'),
-    ("contact_file_slip", "fem:contact_profile", "let slip = place.radial[1] - place.radial[0];",
+    ("contact_file_slip", "fem-simulation:contact_profile", "let slip = place.radial[1] - place.radial[0];",
      "let slip = place.radial[0] - place.radial[1];"),
     # The command
     ("exit_status_of_bad_input", "fem-run:bad_input", "BadInput = 2,", "BadInput = 3,"),

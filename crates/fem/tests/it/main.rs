@@ -1,59 +1,13 @@
-//! Tests of the library through its public interface, in one program.
+//! Many collisions, and the library as a whole, through its public interface, in one program.
 
 mod accuracy;
-mod adhesion;
-mod any_scene;
-mod approach_independence;
-mod auto;
-mod bouncing_stepper;
-mod bulk_viscosity;
 mod calibrate;
-mod condensed;
-mod contact_method;
-mod contact_profile;
 mod data_sheets;
-mod effects;
-mod elastic_null;
-mod error_bars;
-mod failure_messages;
-mod finite_strain;
-mod folded_terms;
-mod gravity;
-mod half_space;
-mod inertia;
 mod laws;
-mod limits_of_validity;
 mod measured_data;
 mod public_interface;
-
-mod frame_invariance;
-mod mirror_symmetry;
-mod models;
-mod neglect_error;
-mod no_separation;
-mod paper;
-mod partly_finite;
-mod partner_waves;
-mod plan;
-mod plastic_flow;
-mod plastic_yield;
-mod plate;
-mod probes;
-mod restart_state;
-mod rigid_partner;
-mod run_cost;
+// The other functions are for tests of one collision.
+#[allow(dead_code)]
+#[path = "../../../fem-simulation/tests/it/scene.rs"]
 mod scene;
-mod shipped_cases;
-mod stepper;
-mod stop_advice;
-mod strongly_relaxed_bodies;
-mod surface_slip;
 mod sweep;
-mod tolerance;
-mod uncertain_inputs;
-mod uncertainty;
-mod unequal_bodies;
-mod unresolved_contact;
-mod validity_warnings;
-mod warning_advice;
-mod what_matters;
