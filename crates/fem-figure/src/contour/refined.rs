@@ -1,6 +1,6 @@
 //! Refinement of a field for smooth bands: each quad becomes four, with values on a cubic along each side.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::section::Section;
 
@@ -18,7 +18,7 @@ impl Section {
     fn divided(&self) -> Self {
         let slopes = self.slopes();
         let mut fine = Self { quads: Vec::with_capacity(4 * self.quads.len()), ..self.clone() };
-        let mut middles: HashMap<[u32; 2], u32> = HashMap::with_capacity(2 * self.quads.len());
+        let mut middles: FxHashMap<[u32; 2], u32> = FxHashMap::default();
         for quad in &self.quads {
             let sides = [0, 1, 2, 3].map(|k: usize| {
                 let [a, b] = [quad[k], quad[(k + 1) % 4]];

@@ -1,6 +1,8 @@
 //! The part of a section where the field lies on one side of a level.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
 
 use super::section::Section;
 
@@ -81,7 +83,8 @@ impl Cells {
     pub fn of(section: &Section) -> Self {
         let quads: Vec<[u32; 4]> = section.finite_quads().collect();
         let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| [quad[k], quad[(k + 1) % 4]]);
-        let mut owner: HashMap<[u32; 2], u32> = HashMap::with_capacity(4 * quads.len());
+        let mut owner: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        owner.reserve(4 * quads.len());
         for (cell, quad) in quads.iter().enumerate() {
             owner.extend(sides(quad).map(|side| (side, cell as u32)));
         }
@@ -164,7 +167,7 @@ fn crossing(a: Corner, b: Corner, level: f64) -> [f64; 2] {
 
 /// Directed edges, without those that run in both directions.
 #[derive(Default)]
-struct Edges(HashMap<(PointBits, PointBits), u32>);
+struct Edges(FxHashMap<(PointBits, PointBits), u32>);
 
 impl Edges {
     fn add_polygon(&mut self, polygon: &[[f64; 2]]) {

@@ -1,6 +1,6 @@
 //! Rounding of polygonal outlines into the curves that they approximate.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::section::Section;
 
@@ -18,7 +18,7 @@ impl Section {
         let mut rounded = Self { outline: Vec::new(), ..self.clone() };
         let sides =
             self.quads.iter().flat_map(|q| [0, 1, 2, 3].map(|k: usize| [q[k], q[(k + 1) % 4]]));
-        let sides: HashSet<[u32; 2]> = sides.collect();
+        let sides: FxHashSet<[u32; 2]> = sides.collect();
         for (k, pair) in self.outline.windows(2).enumerate() {
             let [a, b] = [pair[0], pair[1]];
             rounded.outline.push(a);

@@ -10,7 +10,7 @@ use super::calibration::ORDER;
 use super::setting::Setting;
 use super::stress_error::{ContactStress, StressError};
 use crate::estimate::Estimate;
-use crate::models::method::Cost;
+use crate::models::method::{Cost, SharedModels};
 use crate::plan::Plan;
 use crate::simulation::Simulation;
 
@@ -341,7 +341,9 @@ fn collide(
             table.steps = Some(Quantity::from_si(steps));
         }
     });
-    let shared = simulation.shared().for_reference_runs();
+    // A run with fields needs its factors twice.
+    let is_of_reference_runs = request.snapshots.is_empty();
+    let shared = SharedModels { is_of_reference_runs, ..simulation.shared().for_reference_runs() };
     let reference = Simulation::sharing(case.ok()?, &shared).ok()?;
     let collision = reference.model().collide(approach, request, &mut ());
     Some((reference, collision))
