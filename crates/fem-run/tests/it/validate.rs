@@ -1,5 +1,6 @@
 //! `fem-run validate` starts the program `fem-validate` beside it.
 
+use std::env::consts::EXE_SUFFIX;
 use std::fs;
 use std::process::Command;
 
@@ -9,7 +10,7 @@ use crate::common::{Place, Ran};
 #[test]
 fn the_program_of_the_claims_is_that_beside_the_command() {
     let place = Place::new();
-    let own = place.path("fem-run");
+    let own = place.path(format!("fem-run{EXE_SUFFIX}"));
     // A link would lead to the program beside the first one.
     fs::copy(PROGRAM, &own).unwrap();
     let run =
