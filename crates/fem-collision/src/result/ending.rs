@@ -265,7 +265,7 @@ impl Stop {
 }
 
 /// Warning for bodies with a restitution of 0.
-pub const STAY_TOGETHER: &str = "the bodies stay together: they would separate at less than a thousandth of the speed of approach, so the \
+pub const STAY_TOGETHER: &str = "the bodies stay together: next to nothing of the speed of approach would come back, so the \
      run ends before the contact does";
 
 /// The end of a collision.

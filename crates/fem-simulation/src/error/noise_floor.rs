@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use fem_collision::{Collision, MAX_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
 use super::calibration::{
-    CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER, RESTITUTION_PER_ROOT_SCATTER,
-    TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
+    CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, PRESSURE_PER_SCATTER_OF_FLOW, RADIUS_PER_SCATTER,
+    RESTITUTION_PER_ROOT_SCATTER, TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
 };
 use crate::effects::MassScaling;
 use crate::plan::mesh_source::longest_contact_edge;
@@ -38,6 +38,8 @@ pub(super) fn floor_of_run(
     let energy = 0.5 * unbalanced_energy(collision).unwrap_or(0.0);
     let restitution = energy.max(excess_of_restitution(collision).unwrap_or(0.0));
     let chatter = QuantityOfInterest::ALL.map(|quantity| of_chatter(collision, quantity));
+    let flows = simulation.setup().estimate.flow.is_some();
+    let spikes = if flows { PRESSURE_PER_SCATTER_OF_FLOW } else { 1.0 };
     move |quantity| {
         let chatter = chatter[quantity as usize];
         let unresolved = if is_unresolved { UNRESOLVED_ERROR } else { 0.0 };
@@ -45,7 +47,9 @@ pub(super) fn floor_of_run(
         match quantity {
             QuantityOfInterest::Restitution => finite(chatter.max(restitution)),
             QuantityOfInterest::MaxApproach => finite(chatter).max(overlap).max(unresolved),
-            QuantityOfInterest::PeakPressure => finite(chatter).max(unresolved).max(pressure),
+            QuantityOfInterest::PeakPressure => {
+                finite(spikes * chatter).max(unresolved).max(pressure)
+            }
             _ => finite(chatter).max(unresolved),
         }
     }

@@ -113,6 +113,20 @@ impl<'a> PlateImpact<'a> {
         })
     }
 
+    /// Returns F/(E* h δ) of the plate's own modulus: the share of the approach δ by which its far face makes the contact stiffer
+    /// than a half-space; 0 for a bonded plate.
+    pub fn local_stiffening(&self, estimate: &Estimate) -> f64 {
+        let Some(moduli) = self.body.material().map(Material::instantaneous) else { return 0.0 };
+        let own = moduli.youngs_modulus() / (1.0 - moduli.poissons_ratio().powi(2));
+        let sizes = &estimate.effective.sizes;
+        match self.plate.support {
+            PlateSupport::Free => {
+                sizes.peak_force / (own * self.plate.thickness * sizes.max_approach)
+            }
+            PlateSupport::Bonded => 0.0,
+        }
+    }
+
     /// Returns whether no wave returns within the contact from anywhere, so that the plate is a half-space.
     pub fn is_half_space(&self) -> bool {
         self.regime == PlateRegime::Thick && self.edge_return > 1.0

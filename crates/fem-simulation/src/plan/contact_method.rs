@@ -6,6 +6,7 @@
 //! the scatter.
 
 use fem_case::defaults::{CONTACT_METHOD, PENALTY_FACTOR};
+use fem_case::engineering::show;
 use fem_case::{ContactMethod, Scene, Switch};
 
 use crate::effects::FiniteStrain;
@@ -67,6 +68,11 @@ pub enum ContactNoiseAdvice {
     ShorterSteps,
     /// A massless boundary instead of springs at nodes with mass.
     Massless,
+    /// Smaller elements of bodies that flow, whose force is a staircase.
+    FinerElements {
+        /// Size of the elements at the contact, m.
+        size: f64,
+    },
     /// Softer springs at nodes with mass.
     Softer {
         /// Penalty factor of the run.
@@ -82,6 +88,9 @@ impl ContactNoiseAdvice {
         match (is_possible, plan.contact_method) {
             (true, ContactMethod::Massless) => Self::ShorterSteps,
             (true, _) => Self::Massless,
+            (false, _) if plan.estimate.flow.is_some() && plan.penalty_factor <= PENALTY_FACTOR => {
+                Self::FinerElements { size: 0.5 * plan.contact_element_size }
+            }
             (false, _) => Self::Softer { penalty_factor: plan.penalty_factor },
         }
     }
@@ -90,6 +99,7 @@ impl ContactNoiseAdvice {
     /// time step: at finite strain a step factor of 0.4 leaves a fifth of it.
     pub(crate) fn advice_on_energy(&self) -> String {
         match *self {
+            Self::FinerElements { .. } => "lower time.step_factor".to_string(),
             Self::Softer { penalty_factor } if penalty_factor <= PENALTY_FACTOR => {
                 "lower time.step_factor".to_string()
             }
@@ -106,6 +116,9 @@ impl ContactNoiseAdvice {
             Self::MoreSteps => "raise model.condensed.steps".to_string(),
             Self::ShorterSteps => "lower time.step_factor".to_string(),
             Self::Massless => "write contact.method = \"massless\"".to_string(),
+            Self::FinerElements { size } => {
+                format!("write mesh.contact_element_size = \"{}\"", show(size, "m"))
+            }
             Self::Softer { penalty_factor } if penalty_factor > PENALTY_FACTOR => {
                 format!("write contact.penalty_factor = {PENALTY_FACTOR}")
             }
@@ -135,6 +148,11 @@ mod tests {
             (softer(10.0), "write contact.penalty_factor = 1", "write contact.penalty_factor = 1"),
             (softer(1.0), "write contact.penalty_factor = 0.25", "lower time.step_factor"),
             (softer(0.25), "write time.mass_scaling = 0", "lower time.step_factor"),
+            (
+                ContactNoiseAdvice::FinerElements { size: 5e-5 },
+                "write mesh.contact_element_size = \"50.00 µm\"",
+                "lower time.step_factor",
+            ),
         ] {
             assert_eq!(advice.advice(), of_noise, "{advice:?}");
             assert_eq!(advice.advice_on_energy(), of_energy, "{advice:?}");

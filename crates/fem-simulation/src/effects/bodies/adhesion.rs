@@ -155,7 +155,10 @@ impl Effect for AdhesionEffect {
             };
         };
         let speed = estimate.hertz.approach_speed();
-        let errors = NeglectError::errors_of(estimate, changes(scene, &adhesion, estimate));
+        // A work of adhesion may be larger by its uncertainty.
+        let most = adhesion.work_of_adhesion() + scene.adhesion_uncertainty();
+        let most = Adhesion::new(adhesion.pair(), most);
+        let errors = NeglectError::errors_of(estimate, changes(scene, &most, estimate));
         let share = (adhesion.sticking_speed() / speed).powi(2);
         let open = match is_open(shares(scene, &adhesion, speed)) {
             true => restitution_without(scene, speed),

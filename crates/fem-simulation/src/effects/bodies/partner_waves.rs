@@ -180,7 +180,11 @@ impl Effect for PartnerWaves {
                     }
                     _ => "this model leaves out",
                 },
-                if term { "models fem and ting have" } else { "model fem has" }
+                if term && estimate.flow.is_none() {
+                    "models fem and ting have"
+                } else {
+                    "model fem has"
+                }
             )
         });
         Some(Relevance {

@@ -25,6 +25,11 @@ use crate::rejection::Rejection;
 /// Deflection over the thickness below which the stretching of a plate of elements is left out: 0.25 % of its loss.
 const NO_STRETCHING: f64 = 0.05;
 
+/// Changes of the quantities, relative to those of a half-space, over the [local stiffening](PlateImpact::local_stiffening) of a free
+/// plate: the largest of six pairs of steel, glass, PMMA and alumina between condensed bodies and explicit elements. Exact
+/// elastodynamics of layers of 2 to 12 mm has 0.36 to 0.41 in the approach.
+const OF_LOCAL_STIFFENING: [f64; 6] = [0.0, 0.31, 0.31, 0.42, 0.27, 0.25];
+
 impl PlateBending {
     /// Returns whether the scene has a plate that is not a half-space to its impact.
     pub(in crate::effects) fn is_needed(scene: &Scene, estimate: &Estimate) -> bool {
@@ -217,12 +222,14 @@ impl Effect for PlateBending {
             return all.times(stretching);
         }
         let share = plate_thickness_error(plate.thicknesses) + stretching + plate.relaxation_error;
+        let stiffer = plate.local_stiffening(estimate);
         QuantityErrors::from_fn(|quantity| {
             let slow = match quantity {
                 QuantityOfInterest::ContactTime => plate_slow_contact_error(plate.lambda),
                 _ => 0.0,
             };
-            Some(all.size(quantity)? * (share + slow))
+            let local = OF_LOCAL_STIFFENING[quantity as usize] * stiffer * estimate.scale(quantity);
+            Some(all.size(quantity)? * (share + slow) + local)
         })
     }
 

@@ -36,7 +36,8 @@ impl Effect for SurfaceSlip {
         let warning = (contact_time.abs() > SMALL_SHARE).then(|| {
             format!(
                 "the surfaces of unlike materials slip on each other, which this model leaves out: it changes the \
-                 contact time by about {time} and the peak force by {force}; models fem, condensed and ting have it"
+                 contact time by about {time} and the peak force by {force}; {}",
+                if estimate.flow.is_some() { "model fem has it" } else { "models fem, condensed and ting have it" }
             )
         });
         let is_needed = materials_mismatch(scene);

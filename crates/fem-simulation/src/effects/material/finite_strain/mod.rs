@@ -302,6 +302,10 @@ impl Effect for FiniteStrain {
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
+        // The elastic strain of bodies that flow stays near that of first yield.
+        if estimate.flow.is_some() {
+            return QuantityErrors::ZERO;
+        }
         let computed = if status.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = BodyStrain::of_both(scene, estimate);
         let both =
@@ -339,7 +343,8 @@ impl Effect for FiniteStrain {
         estimate: &Estimate,
         collision: &Collision,
     ) -> Vec<String> {
-        if matches!(scene.model(), ModelChoice::Law { law, .. } if law.family.is_elastic_plastic())
+        if estimate.flow.is_some()
+            || matches!(scene.model(), ModelChoice::Law { law, .. } if law.family.is_elastic_plastic())
         {
             return Vec::new();
         }
