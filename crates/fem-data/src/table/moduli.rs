@@ -171,7 +171,7 @@ impl Role {
             let of = |(letter, modulus): (&str, Modulus)| {
                 let ends_so =
                     |name: &&str| name.strip_prefix(letter).is_some_and(|end| ends.contains(&end));
-                spellings.iter().any(|name| ends_so(name)).then_some(modulus)
+                spellings.iter().any(ends_so).then_some(modulus)
             };
             letters.into_iter().find_map(of)
         };
