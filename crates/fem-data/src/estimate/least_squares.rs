@@ -28,14 +28,14 @@ pub struct Accuracy {
     pub of_parameters: f64,
     /// The gain of a step that is the last one, over the sum of squares per residual.
     pub of_sum: f64,
-    /// Most steps.
+    /// The largest number of steps.
     pub n_steps: usize,
     /// The longest step of a parameter.
     pub longest_step: f64,
 }
 
 impl Accuracy {
-    /// That of sums without noise, with derivatives by differences.
+    /// The accuracy for sums without noise whose derivatives are differences.
     const FULL: Self =
         Self { of_parameters: 1e-9, of_sum: 1e-11, n_steps: 200, longest_step: f64::INFINITY };
 }
@@ -51,7 +51,7 @@ pub trait SumOfSquares {
     /// Returns the residuals.
     fn residuals<'p>(&self, at: &'p Self::At) -> &'p DVector<f64>;
 
-    /// Returns ∂r_i/∂θ_j.
+    /// Returns the derivatives ∂r_i/∂θ_j of the residuals.
     fn slopes(&self, parameters: &[f64], at: &Self::At) -> Option<DMatrix<f64>>;
 
     /// Returns the parameters with the least sum of squares within the bounds of each parameter, and the residuals there. There may be
