@@ -18,10 +18,9 @@
 //! a wrong law is not.
 
 use nalgebra::DMatrix;
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::estimate::error::FitError;
-use crate::estimate::least_squares::jacobian;
+use crate::estimate::least_squares::{jacobian, quantile};
 use crate::estimate::problem::Problem;
 use crate::estimate::robust::{Fitted, Robustness, reweight};
 
@@ -77,7 +76,7 @@ pub struct Estimate {
 impl Estimate {
     /// Adds the standard error of θ by other causes than the data. θ is the logarithm of a scale factor or a plain number.
     pub fn widen(&mut self, error: f64, is_logarithmic: bool, confidence: f64) {
-        let quantile = Normal::standard().inverse_cdf(0.5 * (1.0 + confidence));
+        let quantile = quantile(confidence, None);
         let value = self.value;
         let scale = if is_logarithmic { value } else { 1.0 };
         let whole = |part: f64, other: f64| Some(part.hypot(other)).filter(|sum| sum.is_finite());
@@ -156,11 +155,16 @@ impl Problem<'_> {
             robustness.as_ref().map_or(1.0, Robustness::mean_weight) * n_values as f64;
         let sum_of_squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
         let degrees_of_freedom = n_values - self.free.len();
-        let spread = |sum| self.spread(sum, degrees_of_freedom, confidence);
-        let (variance, quantile) = match &robustness {
-            None => spread(sum_of_squares),
-            Some(robustness) => self.robust_spread(robustness, degrees_of_freedom, confidence),
+        let freedom = degrees_of_freedom as f64;
+        // Residuals over their uncertainties have the variance 1.
+        let is_known = robustness.is_none() && self.has_uncertainties();
+        let variance = match &robustness {
+            _ if is_known => Some(1.0),
+            _ if degrees_of_freedom == 0 => None,
+            None => Some(sum_of_squares / freedom),
+            Some(robustness) => Some(robustness.variance(self.free.len(), self.least_scale())),
         };
+        let quantile = variance.map(|_| quantile(confidence, (!is_known).then_some(freedom)));
         let error = |j: usize| variance.map(|variance| (variance * inverse[(j, j)]).sqrt());
         let estimates = self.free.iter().enumerate().map(|(j, free)| {
             let value = values[free.index];
@@ -277,32 +281,5 @@ impl Problem<'_> {
             }
         }
         Ok((inverse, condition))
-    }
-
-    /// Returns the variance of a weighted residual in a robust fit, and the quantile of the interval.
-    fn robust_spread(
-        &self,
-        robustness: &Robustness,
-        freedom: usize,
-        confidence: f64,
-    ) -> (Option<f64>, Option<f64>) {
-        let variance = robustness.variance(self.free.len(), self.least_scale());
-        let student = StudentsT::new(0.0, 1.0, freedom as f64).ok();
-        let quantile = student.map(|student| student.inverse_cdf(0.5 * (1.0 + confidence)));
-        (Some(variance).filter(|_| freedom > 0), quantile)
-    }
-
-    /// Returns s² and the quantile of the interval.
-    fn spread(&self, sum: f64, freedom: usize, confidence: f64) -> (Option<f64>, Option<f64>) {
-        let upper = 0.5 * (1.0 + confidence);
-        if self.has_uncertainties() {
-            let normal = Normal::standard();
-            return (Some(1.0), Some(normal.inverse_cdf(upper)));
-        }
-        if freedom == 0 {
-            return (None, None);
-        }
-        let student = StudentsT::new(0.0, 1.0, freedom as f64).ok();
-        (Some(sum / freedom as f64), student.map(|student| student.inverse_cdf(upper)))
     }
 }

@@ -50,11 +50,13 @@ pub use error::FitError;
 pub use estimates::{Estimate, Fit};
 pub use inputs::{InputPart, SPEED};
 pub use inverse::{Inversion, invert};
-pub use least_squares::{Residuals, jacobian, minimise};
+pub use least_squares::{
+    Accuracy, Residuals, SumOfSquares, covariance, jacobian, minimise, quantile,
+};
 pub use model::{Model, Outcome};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
 pub use problem::{Free, Problem};
 pub use profile::{Profile, ProfilePoint};
-pub use robust::{Fitted, Robustness, reweight};
+pub use robust::{Fitted, Robustness, deviation_by_median, median, reweight};
 
 pub use crate::table::Point;

@@ -23,12 +23,11 @@
 use serde_json::{Value, json};
 
 use crate::estimate::error::FitError;
+use crate::estimate::least_squares::quantile;
 
 /// Degrees of freedom ν of the scatter, as Gelman et al. take for gross errors (*Bayesian Data Analysis*, 3rd ed., ch. 20).
 /// Normal scatter has 0.83 of its deviation as the scale s, and the parameters 0.89 of the efficiency of least squares.
 const FREEDOM: f64 = 4.0;
-/// The median of |r| over the standard deviation of normal residuals, Φ⁻¹(3/4).
-const MEDIAN_OVER_DEVIATION: f64 = 0.674_489_75;
 /// The rounds end when no weight changes by more.
 const SAME_WEIGHT: f64 = 1e-4;
 const MAX_ROUNDS: usize = 60;
@@ -83,10 +82,8 @@ impl Robustness {
     /// Computes scale and weights of residuals that p parameters leave.
     fn of(residuals: &[f64], n_free: usize, least_scale: f64) -> Self {
         let freedom = residuals.len().saturating_sub(n_free).max(1) as f64;
-        let mut sizes: Vec<f64> = residuals.iter().map(|residual| residual.abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-        let mut scale = (median / MEDIAN_OVER_DEVIATION).max(least_scale);
+        let sizes: Vec<f64> = residuals.iter().map(|residual| residual.abs()).collect();
+        let mut scale = deviation_by_median(&sizes).max(least_scale);
         let weight =
             |residual: f64, scale: f64| (1.0 + (residual / scale).powi(2) / FREEDOM).recip();
         for _ in 0..MAX_SCALE_ROUNDS {
@@ -157,61 +154,20 @@ pub fn reweight<T>(
     Err(FitError::NotConverged { reason })
 }
 
+/// Returns the middle value of a list that is not empty; of an even number the upper one.
+pub fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Returns the standard deviation of normal residuals by the median of their magnitudes, which is Φ⁻¹(3/4) of it and which gross errors
+/// hardly move; 0 without residuals.
+pub fn deviation_by_median(magnitudes: &[f64]) -> f64 {
+    if magnitudes.is_empty() { 0.0 } else { median(magnitudes) / quantile(0.5, None) }
+}
+
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let n = values.len().max(1) as f64;
     values.sum::<f64>() / n
-}
-
-#[cfg(test)]
-mod tests {
-    use statrs::distribution::{ContinuousCDF, StudentsT};
-
-    use super::*;
-
-    /// Returns the robust mean of data with half of its interval of 95 %, and half of that of the mean.
-    fn means(data: &[f64]) -> ((f64, f64), f64) {
-        let weighted = |weights: &[f64]| {
-            let sum: f64 = data.iter().zip(weights).map(|(value, weight)| value * weight).sum();
-            let found = sum / weights.iter().sum::<f64>();
-            Fitted { found, residuals: data.iter().map(|value| found - value).collect(), n_free: 1 }
-        };
-        let n = data.len() as f64;
-        let first = weighted(&vec![1.0; data.len()]);
-        let scatter = first.residuals.iter().map(|r| r * r).sum::<f64>() / (n - 1.0);
-        let student = StudentsT::new(0.0, 1.0, n - 1.0).unwrap().inverse_cdf(0.975);
-        let plain = student * (scatter / n).sqrt();
-        let (mean, robustness) = reweight(first, 1e-6, |_, weights| Ok(weighted(weights))).unwrap();
-        let sum: f64 = robustness.weights.iter().sum();
-        ((mean, student * (robustness.variance(1, 1e-6) / sum).sqrt()), plain)
-    }
-
-    /// Intervals of a robust mean hold the true one in 95 of 100 draws, whether or not a tenth of the data are gross errors
-    /// to one side. Normal scatter makes them wider than those of a mean by the root of the efficiency, 0.893.
-    #[test]
-    fn intervals_of_a_robust_mean_cover() {
-        const DRAWS: i32 = 4000;
-        let mut random = fastrand::Rng::with_seed(11);
-        // The sum of twelve uniform numbers less 6 has a deviation of 1.
-        let normal = |random: &mut fastrand::Rng| (0..12).map(|_| random.f64()).sum::<f64>() - 6.0;
-        // Errors of a few deviations cannot be told from scatter, and shift the mean a little.
-        for (share, least_held) in [(0.0, 0.94), (0.1, 0.92)] {
-            let (mut held, mut widths) = (0.0, 0.0);
-            for _ in 0..DRAWS {
-                let error = |_| match random.f64() < share {
-                    true => -50.0 * random.f64(),
-                    false => normal(&mut random),
-                };
-                let data: Vec<f64> = (0..24).map(error).collect();
-                let ((mean, half), plain_half) = means(&data);
-                held += f64::from(u8::from(mean.abs() < half)) / f64::from(DRAWS);
-                widths += half / plain_half / f64::from(DRAWS);
-            }
-            assert!(held > least_held && held < 0.97, "{share}: {held}");
-            match share > 0.0 {
-                true => assert!(widths < 0.3, "{widths}"),
-                // The correction K and the few degrees of freedom of 24 data add 3 %.
-                false => assert!((widths * 0.893f64.sqrt() - 1.0).abs() < 0.05, "{widths}"),
-            }
-        }
-    }
 }

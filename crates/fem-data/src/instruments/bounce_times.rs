@@ -11,6 +11,7 @@ use fem_material::engineering::show;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::estimate::median;
 use crate::table::Measured;
 use crate::table::{DataError, NumberColumns};
 
@@ -18,10 +19,10 @@ use super::flight_speeds::{Errors, Speeds};
 use super::impact::Impact;
 use super::rig::Rig;
 use super::roles::{TIME_UNCERTAINTIES, TIMES};
-use super::series::{FlightSpan, Scatter, drops, flight_spans, median, scatter};
+use super::series::{FlightSpan, Scatter, drops, flight_spans, scatter};
 
 /// Longest flight, s; a longer one, with landing at 100 m/s, is one in another unit.
-const LONGEST_FLIGHT: f64 = 20.0;
+pub(super) const LONGEST_FLIGHT: f64 = 20.0;
 /// Flights shorter than this are warned of: the ball rises by 5 µm.
 const SHORT_FLIGHT: f64 = 2e-3;
 /// Fewest instants that are too even for bounces.

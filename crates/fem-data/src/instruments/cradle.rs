@@ -14,6 +14,8 @@
 //! first order (JCGM 100, eq. 10). l and g cancel in e. Limits: light, inextensible threads, no
 //! drag, small balls (r² ≪ l²: a solid ball on one thread swings slower by r²/(5l²)), no spin.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::estimate::FitError;
 pub use crate::table::{Measured, impossible_restitution};
 
@@ -54,9 +56,6 @@ pub struct Swing {
     /// Shares of α, β, m₁ and m₂ in the variance of e; 0 without a variance.
     pub shares: [f64; 4],
 }
-
-/// Largest angle: beyond a right angle the threads are slack.
-const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Returns the masses of solid balls by their diameters as d³; their common density cancels.
 pub fn masses_of_balls(diameters: [Measured; 2]) -> [Measured; 2] {
@@ -116,7 +115,7 @@ impl Cradle {
     pub fn highest_rise(&self, release: f64) -> Option<f64> {
         let ratio = self.masses[1].value / self.masses[0].value;
         let sine = 2.0 / (1.0 + ratio) * (0.5 * release).sin();
-        (sine <= (0.5 * RIGHT_ANGLE).sin()).then(|| 2.0 * sine.asin())
+        (sine <= (0.5 * FRAC_PI_2).sin()).then(|| 2.0 * sine.asin())
     }
 
     /// Returns the reason why energy or momentum forbid a swing.
@@ -148,7 +147,7 @@ impl Cradle {
         }
         let angles = [("release angle", trial.release, 1e-6), ("rise angle", trial.rise, 0.0)];
         for (quantity, Measured { value, .. }, least) in angles {
-            if !(value >= least && value <= RIGHT_ANGLE) {
+            if !(value >= least && value <= FRAC_PI_2) {
                 let allowed = if least > 0.0 {
                     "greater than 0 and at most a right angle (1.5708 rad), where threads go slack"
                 } else {

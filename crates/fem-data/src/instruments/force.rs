@@ -24,7 +24,7 @@ use crate::table::{DataError, NumberColumns};
 use super::impact::Impact;
 use super::rig::Rig;
 use super::roles::{FORCES, TIMES};
-use super::series::median;
+use crate::estimate::{deviation_by_median, median};
 
 /// Height of a pulse over the noise.
 const PULSE_OVER_NOISE: f64 = 8.0;
@@ -143,8 +143,7 @@ impl Samples {
         let slope = (f1 - f0) / (t1 - t0);
         let off = |k: usize| (self.forces[k] - f0 - slope * (self.times[k] - t0)).abs();
         let ends: Vec<f64> = (0..n_ends).chain(n - n_ends..n).map(off).collect();
-        // 0.6745 is the median of a normal distribution's absolute value.
-        [f0 - slope * t0, slope, median(&ends) / 0.6745]
+        [f0 - slope * t0, slope, deviation_by_median(&ends)]
     }
 }
 

@@ -2,10 +2,7 @@
 
 use serde::Serialize;
 
-use crate::table::{Measured, impossible_restitution};
-
-/// A larger excess over 1, or below 0, is no scatter; readers of the table reject it.
-const MAX_EXCESS: f64 = 0.2;
+use crate::table::{MAX_RESTITUTION, Measured, impossible_restitution};
 
 /// An impact of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +58,9 @@ impl Impact {
         let Measured { value, uncertainty } = self.restitution;
         let excess = (value - 1.0).max(-value);
         let reason = impossible_restitution(self.restitution)?;
-        (excess > (3.0 * uncertainty).min(MAX_EXCESS)).then(|| format!("{reason} ({value:.3})"))
+        // Readers of the table reject a larger one.
+        (excess > (3.0 * uncertainty).min(MAX_RESTITUTION - 1.0))
+            .then(|| format!("{reason} ({value:.3})"))
     }
 }
 

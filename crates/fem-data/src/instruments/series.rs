@@ -7,7 +7,8 @@
 use std::cmp::Ordering;
 
 use nalgebra::DVector;
-use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use crate::estimate::{median, quantile};
 
 /// A flight between two instants of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,10 +37,8 @@ const FEWEST: usize = 4;
 const MAX_TERMS: usize = 5;
 /// Fewest degrees of freedom of a polynomial that is no line.
 const FEWEST_FREEDOM: f64 = 2.0;
-/// Quantile of the interval that two standard uncertainties are.
-const TWO_SIDED_95: f64 = 0.975;
-/// The same quantile of the normal distribution.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
+/// Confidence of the interval that two standard uncertainties are.
+const CONFIDENCE: f64 = 0.95;
 
 /// Returns the flights between increasing instants.
 pub(super) fn flight_spans(instants: &[f64]) -> Vec<FlightSpan> {
@@ -194,15 +193,7 @@ fn best_step(
 /// Returns the factor from a standard deviation with few degrees of freedom to the standard uncertainty, twice which is the
 /// half-width of a 95 % interval: Student's quantile over that of the normal distribution.
 pub(super) fn widened(freedom: f64) -> f64 {
-    let student = StudentsT::new(0.0, 1.0, freedom.max(1.0)).ok();
-    student.map_or(1.0, |student| student.inverse_cdf(TWO_SIDED_95) / NORMAL_95)
-}
-
-/// Returns the middle value of a list that is not empty; of an even number the upper one.
-pub(super) fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    let middle = sorted.len() / 2;
-    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+    quantile(CONFIDENCE, Some(freedom.max(1.0))) / quantile(CONFIDENCE, None)
 }
 
 /// The scatter of instants about a smooth series of flights.

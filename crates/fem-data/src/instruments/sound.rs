@@ -10,7 +10,7 @@ use crate::table::{DataError, NumberColumns};
 use super::bounce_times::{BounceTimes, Instants};
 use super::rig::Rig;
 use super::roles::{SIGNALS, TIMES};
-use super::series::median;
+use crate::estimate::median;
 
 /// Frequency below which the signal is taken out, Hz.
 const HIGH_PASS: f64 = 200.0;

@@ -10,11 +10,10 @@
 use nalgebra::Matrix2;
 
 use super::joint::Joint;
+use super::superposition::DENSITY;
 
 /// Distance by which blocks are moved, decades.
 const REACH: f64 = 3.0;
-/// Terms per decade of the series: the waves of its moduli are below all scatter.
-const DENSITY: f64 = 3.0;
 /// The least increase of the misfit, in squares of the scatter of a modulus, that shows a move: three standard deviations, so that an
 /// uncertainty is at most a decade.
 const LEAST_INCREASE: f64 = 9.0;

@@ -3,7 +3,7 @@
 //! The unknowns are ln a_T of every block but the reference, ln b_T if it is asked for, and the moduli of a series with terms at given
 //! times. The moduli are found by non-negative least squares for given shifts, and the shifts by steps of Gauss and Newton with the
 //! derivatives of the residuals less what the moduli can follow (variable projection: Golub & Pereyra, *SIAM J. Numer. Anal.* 10 (1973)
-//! 413; Kaufman, *BIT* 15 (1975) 49), damped as by Levenberg and Marquardt. The steps of a round end when the misfit falls by less than a
+//! 413; Kaufman, *BIT* 15 (1975) 49), damped as in [`SumOfSquares`]. The steps of a round end when the misfit falls by less than a
 //! hundredth of its value per degree of freedom.
 //!
 //! Storage and loss modulus differ in their accuracy, and those of a point may be correlated, as by the force that both are measured with.
@@ -18,6 +18,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix2};
 
 use crate::estimate::spectrum::bounded::{Linear, non_negative};
+use crate::estimate::{Accuracy, SumOfSquares};
 use crate::table::{ModulusPoint, TestKind};
 
 use super::series::{Observations, ROUNDING, compressed_by_products, grid, joined};
@@ -27,16 +28,10 @@ use super::superposition::{Block, reduced};
 const DENSITY: f64 = 2.0;
 /// Rounds after which the times of the series and the covariance of the residuals follow the shifts.
 const N_ROUNDS: usize = 5;
-/// Most steps of a round.
-const MAX_STEPS: usize = 30;
-/// Accuracy of a shift, ln.
-const TOLERANCE: f64 = 1e-5;
-/// The least gain of a step, in squares of the scatter of a modulus: parameters of smaller ones move by a tenth of their uncertainty.
-const LEAST_GAIN: f64 = 0.01;
-/// The largest step of a shift, ln.
-const MAX_STEP: f64 = 1.0;
-/// Damping above which no step lowers the misfit.
-const MAX_DAMPING: f64 = 1e6;
+/// Accuracy of a shift, ln; and the gain of the last step, in squares of the scatter of a modulus: parameters of smaller ones move by a
+/// tenth of their uncertainty.
+const ACCURACY: Accuracy =
+    Accuracy { of_parameters: 1e-5, of_sum: 0.01, n_steps: 30, longest_step: 1.0 };
 /// Standard uncertainty of a shift that the data do not determine, ln: a decade and a half.
 const WIDEST: f64 = 1.5 * std::f64::consts::LN_10;
 
@@ -62,7 +57,7 @@ pub(super) fn vary_times(
     };
     let whitening = Matrix2::from_diagonal(&nalgebra::Vector2::new(1.0, loss_scale.recip()));
     let problem = Problem { joint: &joint, times, reach, whitening, is_first: false };
-    let (found, solved) = problem.minimise(times.iter().map(|time| time.ln()).collect());
+    let (found, solved) = problem.best(&times.iter().map(|time| time.ln()).collect::<Vec<_>>());
     let moduli = solved.moduli.iter().copied().collect::<Vec<f64>>();
     found.into_iter().map(f64::exp).zip(moduli)
 }
@@ -140,7 +135,7 @@ impl<'a> Joint<'a> {
             let is_first = round == 0;
             let reach = f64::INFINITY;
             let problem = Problem { joint: self, times: &times, reach, whitening, is_first };
-            let (found, solved) = problem.minimise(start);
+            let (found, solved) = problem.best(&start);
             covariance = problem.covariance(&found, &solved).view((0, 0), (n, n)).into_owned();
             whitening = match is_first {
                 true => {
@@ -237,6 +232,22 @@ struct Problem<'a> {
     is_first: bool,
 }
 
+impl SumOfSquares for Problem<'_> {
+    type At = Solved;
+
+    fn at(&self, parameters: &[f64]) -> Option<Solved> {
+        Some(self.solve(parameters))
+    }
+
+    fn residuals<'p>(&self, at: &'p Solved) -> &'p DVector<f64> {
+        &at.residuals
+    }
+
+    fn slopes(&self, parameters: &[f64], at: &Solved) -> Option<DMatrix<f64>> {
+        Some(self.derivatives(parameters, at))
+    }
+}
+
 impl Problem<'_> {
     fn n_shifts(&self) -> usize {
         self.joint.moving.len() * (1 + usize::from(self.joint.has_vertical))
@@ -248,68 +259,21 @@ impl Problem<'_> {
         if varied.is_empty() { self.times.to_vec() } else { varied }
     }
 
-    /// Returns the parameters with the least misfit.
-    fn minimise(&self, mut found: Vec<f64>) -> (Vec<f64>, Solved) {
-        let n = found.len();
-        let mut solved = self.solve(&found);
-        let freedom = solved.residuals.len() as f64;
-        let mut damping = 1e-3;
-        for _ in 0..MAX_STEPS {
-            let slopes = self.slopes(&found, &solved);
-            let mut normal = slopes.transpose() * &slopes;
-            let mut gradient = slopes.tr_mul(&solved.residuals);
-            for k in 0..n {
-                if !self.is_held(&found, k, gradient[k]) {
-                    continue;
-                }
-                normal.row_mut(k).fill(0.0);
-                normal.column_mut(k).fill(0.0);
-                gradient[k] = 0.0;
-            }
-            let floor = 1e-12 * normal.diagonal().max().max(f64::MIN_POSITIVE);
-            let (mut size, before) = (0.0, solved.misfit());
-            while damping < MAX_DAMPING {
-                let mut damped = normal.clone();
-                for k in 0..n {
-                    damped[(k, k)] += damping * damped[(k, k)].max(floor);
-                }
-                let step = Cholesky::new(damped).map(|factor| factor.solve(&gradient));
-                let step = step.unwrap_or_else(|| DVector::zeros(n));
-                let step = step.map(|it| it.clamp(-MAX_STEP, MAX_STEP));
-                let trial: Vec<f64> = (0..n).map(|k| self.clamped(k, found[k] - step[k])).collect();
-                let tried = self.solve(&trial);
-                if tried.misfit() <= solved.misfit() {
-                    (found, solved, size) = (trial, tried, step.amax());
-                    damping *= 0.1;
-                    break;
-                }
-                damping *= 10.0;
-            }
-            let gain = (before - solved.misfit()) * freedom;
-            if size < TOLERANCE || gain < LEAST_GAIN * solved.misfit() {
-                break;
-            }
-        }
-        (found, solved)
-    }
-
-    /// Returns a value of a parameter, a relaxation time within its reach.
-    fn clamped(&self, k: usize, value: f64) -> f64 {
-        let Some(time) = k.checked_sub(self.n_shifts()).map(|k| self.times[k].ln()) else {
-            return value;
-        };
-        value.clamp(time - self.reach, time + self.reach)
-    }
-
-    /// Whether a parameter is at the end of its reach and would leave it.
-    fn is_held(&self, found: &[f64], k: usize, gradient: f64) -> bool {
-        self.clamped(k, found[k] - 1e-6 * gradient.signum()) == found[k]
+    /// Returns the parameters with the least misfit, relaxation times within their reach.
+    fn best(&self, start: &[f64]) -> (Vec<f64>, Solved) {
+        let n_varied = start.len() - self.n_shifts();
+        let reach = |time: &f64| (time.ln() - self.reach, time.ln() + self.reach);
+        let of_times = self.times[..n_varied].iter().map(reach);
+        let free = std::iter::repeat_n((f64::NEG_INFINITY, f64::INFINITY), self.n_shifts());
+        let bounds: Vec<(f64, f64)> = free.chain(of_times).collect();
+        let found = self.minimise(start, &bounds, ACCURACY);
+        found.unwrap_or_else(|| (start.to_vec(), self.solve(start)))
     }
 
     /// Returns the covariance of the parameters.
     fn covariance(&self, found: &[f64], solved: &Solved) -> DMatrix<f64> {
         let n = found.len();
-        let slopes = self.slopes(found, solved);
+        let slopes = self.derivatives(found, solved);
         let freedom = solved.residuals.len().saturating_sub(solved.passive().ncols() + n).max(1);
         let variance = solved.misfit() / freedom as f64 + ROUNDING * ROUNDING;
         // Prior knowledge of a decade and a half keeps shifts finite that the data do not determine.
@@ -347,7 +311,7 @@ impl Problem<'_> {
     }
 
     /// Returns the derivatives of the residuals by the parameters less what the moduli follow.
-    fn slopes(&self, parameters: &[f64], solved: &Solved) -> DMatrix<f64> {
+    fn derivatives(&self, parameters: &[f64], solved: &Solved) -> DMatrix<f64> {
         let (joint, times) = (self.joint, self.times(parameters));
         let n = joint.moving.len();
         let mut of_times = solved.observations.slopes(&times);

@@ -24,6 +24,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use fem_material::maxwell_element;
 
+use crate::estimate::covariance;
 use crate::estimate::spectrum::bounded::{Linear, non_negative};
 use crate::table::{ModulusPoint, TestKind};
 
@@ -219,16 +220,7 @@ impl Compressed {
             }
         }
         let freedom = self.n_rows.saturating_sub(found.n_parameters()).max(1) as f64;
-        // Columns of the same size, so that moduli of different sizes do not make the matrix singular.
-        let norms: Vec<f64> = linear.a.column_iter().map(|column| column.norm()).collect();
-        let scaled = DMatrix::from_fn(linear.a.nrows(), norms.len(), |i, j| {
-            linear.a[(i, j)] / norms[j].max(f64::MIN_POSITIVE)
-        });
-        let inverse = (scaled.transpose() * scaled).pseudo_inverse(1e-14).ok()?;
-        let n = norms.len();
-        Some(DMatrix::from_fn(n, n, |i, j| {
-            inverse[(i, j)] * misfit / freedom / norms[i] / norms[j]
-        }))
+        covariance(&linear.a, misfit / freedom)
     }
 }
 

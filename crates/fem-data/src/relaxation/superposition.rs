@@ -16,14 +16,14 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use fem_material::ShiftLaw;
 
 use crate::estimate::spectrum::bounded::non_negative;
-use crate::estimate::{jacobian, minimise};
+use crate::estimate::{covariance, jacobian, minimise};
 use crate::table::{ModulusPoint, TestKind};
 
 use super::joint::Joint;
 use super::series::{Observations, compressed_by_products, grid};
 
-/// Terms per decade of the series of two blocks.
-const DENSITY: f64 = 3.0;
+/// Terms per decade of the series of a few blocks: the waves of its moduli are below all scatter.
+pub(super) const DENSITY: f64 = 3.0;
 /// Decades of the scan on either side of the first estimate.
 const REACH: f64 = 1.5;
 /// Values of the scan.
@@ -190,35 +190,7 @@ impl Superposition {
         let covariance =
             covariance + DMatrix::identity(moving.len(), moving.len()) * floor.max(1e-16);
         let Some(factor) = Cholesky::new(covariance) else { return };
-        let fit = |start: &[f64], bounds: &[(f64, f64)], of: &dyn Fn(&[f64]) -> ShiftLaw| {
-            let residuals = |constants: &[f64]| -> Option<Vec<f64>> {
-                let law = of(constants);
-                let off = blocks.iter().map(|(temperature, ln_shift)| {
-                    let predicted = law.log10_shift(*temperature, reference)?;
-                    Some(ln_shift - predicted * std::f64::consts::LN_10)
-                });
-                let off = DVector::from_vec(off.collect::<Option<Vec<f64>>>()?);
-                Some(factor.l().solve_lower_triangular(&off)?.as_slice().to_vec())
-            };
-            let (found, sum) = minimise(&residuals, start, bounds).ok()?;
-            let slopes = jacobian(&residuals, &found, bounds)?;
-            // Shifts that scatter more about the law than they should make its constants more uncertain (Birge's ratio).
-            let freedom = blocks.len().saturating_sub(found.len()).max(1) as f64;
-            let ratio = (sum / freedom).max(1.0);
-            let variance = (slopes.transpose() * slopes).pseudo_inverse(1e-14).ok()? * ratio;
-            let law = of(&found);
-            let deviation = blocks.iter().map(|(temperature, ln_shift)| {
-                let predicted = law.log10_shift(*temperature, reference).unwrap_or(f64::NAN);
-                (ln_shift / std::f64::consts::LN_10 - predicted).abs()
-            });
-            let fitted = FittedShift {
-                largest_deviation: deviation.fold(0.0, f64::max),
-                law,
-                uncertainties: Vec::new(),
-                misfit: (sum / freedom).sqrt(),
-            };
-            Some((fitted, found, variance))
-        };
+        let shifts = Shifts { blocks, reference, factor: factor.l() };
         let (coldest, hottest) =
             (self.blocks[0].temperature, self.blocks.last().map_or(0.0, |b| b.temperature));
         // log₁₀ a = −s ΔT/(1 + κ ΔT) has no pole in the range of the data: s = C₁/C₂, κ = 1/C₂.
@@ -231,7 +203,7 @@ impl Superposition {
             ShiftLaw::Wlf { c1: c[0] / kappa, c2: kappa.recip() }
         };
         if moving.len() >= 2 {
-            self.wlf = fit(&[0.1, 0.25 * bounds[1].1.min(0.02)], &bounds, &wlf_of).map(
+            self.wlf = shifts.fit(&[0.1, 0.25 * bounds[1].1.min(0.02)], &bounds, &wlf_of).map(
                 |(fitted, found, variance)| {
                     let [s, kappa] = [found[0], found[1]];
                     let of = |a: f64, b: f64| {
@@ -247,13 +219,59 @@ impl Superposition {
             );
         }
         let arrhenius_of = |c: &[f64]| ShiftLaw::Arrhenius { activation_temperature: 1e4 * c[0] };
-        self.arrhenius =
-            fit(&[1.0], &[(0.0, f64::INFINITY)], &arrhenius_of).map(|(fitted, _, variance)| {
-                FittedShift {
-                    uncertainties: vec![1e4 * variance[(0, 0)].max(0.0).sqrt()],
-                    ..fitted
-                }
+        self.arrhenius = shifts.fit(&[1.0], &[(0.0, f64::INFINITY)], &arrhenius_of).map(
+            |(fitted, _, variance)| FittedShift {
+                uncertainties: vec![1e4 * variance[(0, 0)].max(0.0).sqrt()],
+                ..fitted
+            },
+        );
+    }
+}
+
+/// Shifts of the blocks that are shifted, to which laws are fitted.
+struct Shifts {
+    /// Temperature, K, and ln a_T of each block.
+    blocks: Vec<(f64, f64)>,
+    /// Temperature of the reference, K.
+    reference: f64,
+    /// Cholesky's factor of the covariance of ln a_T.
+    factor: DMatrix<f64>,
+}
+
+impl Shifts {
+    /// Fits a law; returns it with its constants and their covariance.
+    fn fit(
+        &self,
+        start: &[f64],
+        bounds: &[(f64, f64)],
+        of: &dyn Fn(&[f64]) -> ShiftLaw,
+    ) -> Option<(FittedShift, Vec<f64>, DMatrix<f64>)> {
+        let residuals = |constants: &[f64]| -> Option<Vec<f64>> {
+            let law = of(constants);
+            let off = self.blocks.iter().map(|(temperature, ln_shift)| {
+                let predicted = law.log10_shift(*temperature, self.reference)?;
+                Some(ln_shift - predicted * std::f64::consts::LN_10)
             });
+            let off = DVector::from_vec(off.collect::<Option<Vec<f64>>>()?);
+            Some(self.factor.solve_lower_triangular(&off)?.as_slice().to_vec())
+        };
+        let (found, sum) = minimise(&residuals, start, bounds).ok()?;
+        let slopes = jacobian(&residuals, &found, bounds)?;
+        // Shifts that scatter more about the law than they should make its constants more uncertain (Birge's ratio).
+        let freedom = self.blocks.len().saturating_sub(found.len()).max(1) as f64;
+        let variance = covariance(&slopes, (sum / freedom).max(1.0))?;
+        let law = of(&found);
+        let deviation = self.blocks.iter().map(|(temperature, ln_shift)| {
+            let predicted = law.log10_shift(*temperature, self.reference).unwrap_or(f64::NAN);
+            (ln_shift / std::f64::consts::LN_10 - predicted).abs()
+        });
+        let fitted = FittedShift {
+            largest_deviation: deviation.fold(0.0, f64::max),
+            law,
+            uncertainties: Vec::new(),
+            misfit: (sum / freedom).sqrt(),
+        };
+        Some((fitted, found, variance))
     }
 }
 

@@ -124,6 +124,11 @@ pub(super) fn bare(header: &str) -> &str {
     ENDINGS.iter().find_map(|ending| header.strip_suffix(ending.text)).unwrap_or(header)
 }
 
+/// Returns a name without a unit in brackets, which it keeps if no column has that unit: `voltage [V]`.
+pub(super) fn before_brackets(header: &str) -> &str {
+    header.split(['[', '(']).next().unwrap_or_default().trim_end_matches('_')
+}
+
 /// Returns a name and all names that it may be without a unit at its end: `speed_m_s` is `speed` in m/s, or
 /// `speed_m` in s.
 pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {

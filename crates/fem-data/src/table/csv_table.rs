@@ -5,6 +5,7 @@
 //! unit, `5 cm/s`. Cells are separated by commas, semicolons, tabs or blanks; with the latter three numbers may have
 //! decimal commas.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 
 use fem_case::{nearest, parse_quantity};
@@ -70,53 +71,14 @@ impl Table {
         }
         let text = &*tabs_for_blanks(text);
         let (separator, below) = separator(text);
-        let n_above = text.lines().count() - below.lines().count();
-        let mut reader = csv::ReaderBuilder::new()
-            .delimiter(separator)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(below.as_bytes());
-        let header = reader.headers().map_err(|error| DataError::new(&name, error))?;
-        let is_header = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
-        let header_line = text.lines().skip(n_above).position(is_header);
-        let header_line = (n_above + header_line.unwrap_or(0) + 1) as u64;
-        let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
-        if !header.is_empty() && header.iter().all(is_number) {
-            let error = DataError::new(&name, "the first row is of numbers: there is no header");
-            return Err(error.in_line(header_line).with_help(
-                "write a line above it that names the columns, such as speed_m_s,restitution or \
-                 frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
-            ));
-        }
-        let mut header = with_signs_named(header.iter().map(column_name).collect());
-        let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
-        let below: Vec<&str> = text.lines().skip(n_above).collect();
-        for record in reader.records() {
-            // The reader counts comments above a row to the row.
-            let place = |position: Option<&csv::Position>| {
-                let first = position.map_or(0, csv::Position::line) as usize;
-                let above = below.iter().skip(first.saturating_sub(1));
-                (n_above + first + above.take_while(|line| !is_header(line)).count()) as u64
-            };
-            let record = record.map_err(|error| {
-                let line = place(error.position());
-                DataError::new(&name, error).in_line(line)
-            })?;
-            let line = place(record.position());
-            let mut cells: Vec<String> = record.iter().map(str::to_string).collect();
-            // Spreadsheets end rows with empty cells.
-            while cells.len() > header.len() && cells.last().is_some_and(String::is_empty) {
-                cells.pop();
-            }
-            if cells.len() != header.len() {
-                let message = format!("{} cells below a header of {}", cells.len(), header.len());
-                return Err(DataError::new(&name, message)
-                    .in_line(line)
-                    .with_help("every row has as many cells as the header"));
-            }
-            rows.push((line, cells));
-        }
+        // The line `sep=;` becomes a comment, so that all lines keep their numbers.
+        let text = match below.len() < text.len() {
+            true => Cow::Owned(format!("#{text}")),
+            false => Cow::Borrowed(text),
+        };
+        let (header, header_line) = named_columns(&name, &text, separator)?;
+        let mut header = with_signs_named(header);
+        let mut rows = cells(&name, &text, separator, header.len())?;
         split_uncertainties(&mut header, &mut rows);
         if let [(_, first), (_, second), ..] = rows.as_slice()
             && let Some(names) = with_units(&header, first, second)
@@ -245,8 +207,15 @@ impl Table {
         if let Some(named) = self.named.iter().copied().find(is_it) {
             return Ok(Some(named));
         }
-        let mut found = (0..self.header.len()).filter(is_it);
-        match (found.next(), found.next()) {
+        self.only((0..self.header.len()).filter(is_it))
+    }
+
+    /// Returns the only one of these columns, if there is one.
+    pub(super) fn only(
+        &self,
+        mut columns: impl Iterator<Item = usize>,
+    ) -> Result<Option<usize>, DataError> {
+        match (columns.next(), columns.next()) {
             (Some(first), Some(second)) => {
                 let [first, second] = [first, second].map(|column| &self.header[column]);
                 let message = format!("the columns {first} and {second} mean the same");
@@ -389,6 +358,70 @@ impl Table {
     pub fn header_fault(&self, message: impl Display) -> DataError {
         DataError::new(&self.name, message).in_line(self.header_line)
     }
+}
+
+fn is_comment(line: &str) -> bool {
+    line.trim().is_empty() || line.starts_with('#')
+}
+
+fn reader(text: &str, separator: u8) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes())
+}
+
+/// Returns the names of the columns of a text, and their line.
+fn named_columns(name: &str, text: &str, separator: u8) -> Result<(Vec<String>, u64), DataError> {
+    let mut reader = reader(text, separator);
+    let header = reader.headers().map_err(|error| DataError::new(name, error))?;
+    let line = text.lines().position(|line| !is_comment(line)).unwrap_or(0) as u64 + 1;
+    let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
+    if header.is_empty() || !header.iter().all(is_number) {
+        return Ok((header.iter().map(column_name).collect(), line));
+    }
+    let error = DataError::new(name, "the first row is of numbers: there is no header");
+    Err(error.in_line(line).with_help(
+        "write a line above it that names the columns, such as speed_m_s,restitution or \
+         frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
+    ))
+}
+
+/// Returns the cells of the rows below the header of a text, each row with its line.
+fn cells(
+    name: &str,
+    text: &str,
+    separator: u8,
+    n_columns: usize,
+) -> Result<Vec<(u64, Vec<String>)>, DataError> {
+    let lines: Vec<&str> = text.lines().collect();
+    // The reader counts comments above a row to the row.
+    let place = |position: Option<&csv::Position>| {
+        let first = position.map_or(0, csv::Position::line) as usize;
+        let above = lines.iter().skip(first.saturating_sub(1));
+        (first + above.take_while(|line| is_comment(line)).count()) as u64
+    };
+    let row = |record: csv::Result<csv::StringRecord>| {
+        let record = record.map_err(|error| {
+            let line = place(error.position());
+            DataError::new(name, error).in_line(line)
+        })?;
+        let line = place(record.position());
+        let mut cells: Vec<String> = record.iter().map(str::to_string).collect();
+        // Spreadsheets end rows with empty cells.
+        while cells.len() > n_columns && cells.last().is_some_and(String::is_empty) {
+            cells.pop();
+        }
+        if cells.len() == n_columns {
+            return Ok((line, cells));
+        }
+        let message = format!("{} cells below a header of {n_columns}", cells.len());
+        let error = DataError::new(name, message).in_line(line);
+        Err(error.with_help("every row has as many cells as the header"))
+    };
+    reader(text, separator).into_records().map(row).collect()
 }
 
 /// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.

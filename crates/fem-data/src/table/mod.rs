@@ -35,6 +35,7 @@ pub use number_columns::{NumberColumn, NumberColumns};
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, Measured, NotMeasured, impossible_restitution, parse_measured};
 pub use restitutions::{
-    ACCEPTED_BOUNDS, MAX_UNCERTAINTY, Point, Restitutions, UncertaintyError, UnevenUncertainties,
+    ACCEPTED_BOUNDS, MAX_RESTITUTION, MAX_UNCERTAINTY, Point, Restitutions, UncertaintyError,
+    UnevenUncertainties,
 };
 pub use sweep_table::{COLUMNS, STATUS, UNCERTAINTIES, energy_column, rows_below};

@@ -7,7 +7,7 @@ use fem_material::ZERO_CELSIUS;
 use super::column_roles::{
     ANGULAR_FREQUENCIES, COMPLEX_ENDS, COMPLEX_MODULI, FREQUENCIES, LOSS_ENDS, LOSS_FACTORS,
     LOSS_MODULI, PHASES, PRESSURE, RELAXATION_ENDS, RELAXATION_MODULI, SHORT_TEMPERATURES,
-    STORAGE_ENDS, STORAGE_MODULI, TEMPERATURES, TIMES, bare, ending_of,
+    STORAGE_ENDS, STORAGE_MODULI, TEMPERATURES, TIMES, bare, before_brackets, ending_of,
 };
 use super::csv_dialect::column_name;
 use super::csv_table::Table;
@@ -140,17 +140,14 @@ impl Role {
         {
             return Some(Self::Temperature(if is_temperature { unit } else { "_degc" }));
         }
-        if FREQUENCIES.contains(&name) {
-            return Some(Self::Frequency);
-        }
-        if ANGULAR_FREQUENCIES.contains(&name) {
-            return Some(Self::AngularFrequency);
-        }
-        if LOSS_FACTORS.contains(&name) {
-            return Some(Self::LossFactor);
-        }
-        if PHASES.contains(&name) {
-            return Some(Self::Phase);
+        let plain: [(&[&str], Self); 4] = [
+            (&FREQUENCIES, Self::Frequency),
+            (&ANGULAR_FREQUENCIES, Self::AngularFrequency),
+            (&LOSS_FACTORS, Self::LossFactor),
+            (&PHASES, Self::Phase),
+        ];
+        if let Some((_, role)) = plain.into_iter().find(|(names, _)| names.contains(&name)) {
+            return Some(role);
         }
         if TIMES.contains(&name) && !has_frequency {
             return Some(Self::Time);
@@ -162,13 +159,6 @@ impl Role {
             _ => (None, name),
         };
         let letters = [("e", Modulus::Young), ("g", Modulus::Shear)];
-        let by_letter = |ends: &[&str]| {
-            let of = |(letter, modulus)| {
-                let end = name.strip_prefix(letter)?;
-                ends.contains(&end).then_some(modulus)
-            };
-            letters.into_iter().find_map(of)
-        };
         let kinds: [(OfModulus, &[&str], &[&str]); 4] = [
             (Self::Storage, &STORAGE_MODULI, &STORAGE_ENDS),
             (Self::Loss, &LOSS_MODULI, &LOSS_ENDS),
@@ -176,7 +166,15 @@ impl Role {
             (Self::Relaxation, &RELAXATION_MODULI, &RELAXATION_ENDS),
         ];
         // "|e*|" is written with bars, "e_stor." with a point.
-        let plain = name.trim_matches(['|', '.']);
+        let spellings = [name, name.trim_matches(['|', '.'])];
+        let by_letter = |ends: &[&str]| {
+            let of = |(letter, modulus): (&str, Modulus)| {
+                let ends_so =
+                    |name: &&str| name.strip_prefix(letter).is_some_and(|end| ends.contains(&end));
+                spellings.iter().any(ends_so).then_some(modulus)
+            };
+            letters.into_iter().find_map(of)
+        };
         kinds.into_iter().find_map(|(kind, names, ends)| {
             // The word modulus alone belongs to a complex modulus over frequency and to a relaxation test over time.
             let is_other =
@@ -184,11 +182,7 @@ impl Role {
             if names.contains(&words) && !is_other {
                 return Some(kind(modulus));
             }
-            let found = by_letter(ends).or_else(|| {
-                let (letter, modulus) = letters.into_iter().find(|it| plain.starts_with(it.0))?;
-                ends.contains(&plain.strip_prefix(letter)?).then_some(modulus)
-            });
-            found.map(|modulus| kind(Some(modulus)))
+            by_letter(ends).map(|modulus| kind(Some(modulus)))
         })
     }
 
@@ -219,23 +213,119 @@ const COLUMNS: &str = "a table has a frequency [Hz] or omega [rad/s], and E' [MP
 /// The units that a table may have.
 const UNITS: &str = "units are Hz, kHz, rad/s; s, ms, min, h; Pa, kPa, MPa, GPa, psi, ksi, dyn/cm^2, N/mm^2; °C, K, °F";
 
-/// The columns of a table by their roles.
+/// The columns that the rows of a table are read from, each with its role.
 struct Columns<'a> {
     table: &'a Table,
-    roles: Vec<(usize, Role)>,
+    abscissa: (usize, Role),
+    temperature: Option<(usize, Role)>,
+    /// One modulus of a relaxation test; of an oscillation a modulus and the loss modulus or factor.
+    moduli: Vec<(usize, Role)>,
 }
 
-impl Columns<'_> {
-    fn find(&self, is: impl Fn(Role) -> bool) -> Result<Option<usize>, DataError> {
-        let mut found = self.roles.iter().filter(|(_, role)| is(*role)).map(|(column, _)| *column);
-        match (found.next(), found.next()) {
-            (Some(first), Some(second)) => {
-                let [first, second] = [first, second].map(|column| &self.table.header()[column]);
-                let message = format!("the columns {first} and {second} mean the same");
-                Err(self.table.header_fault(message).with_help("keep one of the two"))
+impl<'a> Columns<'a> {
+    fn of(table: &'a Table) -> Result<Self, DataError> {
+        let is_frequency = |name: &String| {
+            let name = bare(name);
+            FREQUENCIES.contains(&name) || ANGULAR_FREQUENCIES.contains(&name)
+        };
+        let has_frequency = table.header().iter().any(is_frequency);
+        let role = |header: &String| Role::of(header, has_frequency);
+        let roles: Vec<Option<Role>> = table.header().iter().map(role).collect();
+        let find = |is: fn(Role) -> bool| {
+            let fits = |column: &usize| roles[*column].is_some_and(is);
+            let found = table.only((0..roles.len()).filter(fits))?;
+            Ok::<_, DataError>(found.and_then(|column| Some((column, roles[column]?))))
+        };
+        let missing = |what: &str| {
+            // A column of an unknown unit keeps the brackets in its name.
+            let is_of_unknown_unit = |header: &&String| {
+                header.ends_with([')', ']'])
+                    && Role::of(before_brackets(header), has_frequency).is_some()
+                    && role(header).is_none()
+            };
+            if let Some(header) = table.header().iter().find(is_of_unknown_unit) {
+                let message = format!("the unit of the column {header} is not known");
+                return table.header_fault(message).with_help(UNITS);
             }
-            (first, _) => Ok(first),
+            let found = table.header().join(", ");
+            let message = format!("there is no column of {what}; found are {found}");
+            table.header_fault(message).with_help(COLUMNS)
+        };
+        let abscissa = find(Role::is_abscissa)?.ok_or_else(|| missing("a frequency or a time"))?;
+        let temperature = find(|role| matches!(role, Role::Temperature(_)))?;
+        let storage = find(|role| matches!(role, Role::Storage(_)))?;
+        let loss = find(|role| matches!(role, Role::Loss(_)))?;
+        let complex = find(|role| matches!(role, Role::Complex(_)))?;
+        let factor = match find(|role| role == Role::LossFactor)? {
+            None => find(|role| role == Role::Phase)?,
+            factor => factor,
+        };
+        let relaxation = find(|role| matches!(role, Role::Relaxation(_)))?;
+        let moduli = match (storage, loss, complex, factor) {
+            _ if abscissa.1 == Role::Time => {
+                vec![relaxation.ok_or_else(|| missing("the relaxation modulus"))?]
+            }
+            (Some(first), Some(second), ..)
+            | (Some(first), None, _, Some(second))
+            | (None, _, Some(first), Some(second)) => vec![first, second],
+            (Some(_), ..) => return Err(missing("the loss modulus or of tan δ")),
+            (None, ..) => return Err(missing("the storage modulus")),
+        };
+        Ok(Self { table, abscissa, temperature, moduli })
+    }
+
+    /// Returns the columns that are read.
+    fn read(&self) -> impl Iterator<Item = usize> {
+        self.moduli.iter().chain([&self.abscissa]).chain(&self.temperature).map(|it| it.0)
+    }
+
+    /// Returns the modulus that the columns say; `given` is that of the caller.
+    fn named_modulus(&self, given: Option<Modulus>) -> Result<Option<Modulus>, DataError> {
+        let named = || self.moduli.iter().filter_map(|(_, role)| role.modulus());
+        let found = named().next();
+        if named().any(|other| Some(other) != found) {
+            let message = "one modulus is Young's and the other one of shear";
+            return Err(self.table.header_fault(message).with_help("both are of one test"));
         }
+        if let (Some(given), Some(found)) = (given, found)
+            && given != found
+        {
+            let message = format!("the columns are of the {}", found.key().replace('_', " "));
+            return Err(self.table.header_fault(message).with_help("leave out --modulus"));
+        }
+        Ok(found)
+    }
+
+    /// Returns the point of a row; `None` if a cell has no value.
+    fn point(&self, row: usize) -> Result<Option<ModulusPoint>, DataError> {
+        if self.read().any(|column| self.table.is_missing(row, column)) {
+            return Ok(None);
+        }
+        let (column, role) = self.moduli[0];
+        let first = self.modulus(row, column)?;
+        let [storage, loss] = match self.moduli[1..] {
+            [(column, Role::Loss(_)), ..] => {
+                let loss = self.modulus(row, column)?;
+                if loss > LARGEST_LOSS_FACTOR * first {
+                    let help = "a solid has a loss factor of at most 10: are the columns exchanged, or of different units?";
+                    return Err(self.table.cell_fault(row, column, loss, help));
+                }
+                [first, loss]
+            }
+            [(column, of_factor), ..] => {
+                let factor = self.loss_factor(row, column, of_factor)?;
+                let is_complex = matches!(role, Role::Complex(_));
+                let storage = if is_complex { first / factor.hypot(1.0) } else { first };
+                [storage, storage * factor]
+            }
+            [] => [first, 0.0],
+        };
+        let temperature = match self.temperature {
+            Some((column, Role::Temperature(unit))) => Some(self.kelvin(row, column, unit)?),
+            _ => None,
+        };
+        let at = self.abscissa_at(row, self.abscissa)?;
+        Ok(Some(ModulusPoint { at, storage, loss, temperature, line: self.table.line(row) }))
     }
 
     /// Returns a modulus, Pa, > 0.
@@ -254,7 +344,7 @@ impl Columns<'_> {
     }
 
     /// Returns an angular frequency, rad/s, or a time, s, > 0.
-    fn abscissa(&self, row: usize, column: usize, role: Role) -> Result<f64, DataError> {
+    fn abscissa_at(&self, row: usize, (column, role): (usize, Role)) -> Result<f64, DataError> {
         let header = &self.table.header()[column];
         let dimension = if role == Role::Time { [0, 0, 1] } else { [0, 0, -1] };
         let value = self.table.number(row, column, dimension)?;
@@ -268,7 +358,7 @@ impl Columns<'_> {
     }
 
     /// Returns a temperature, K.
-    fn temperature(&self, row: usize, column: usize, unit: &str) -> Result<f64, DataError> {
+    fn kelvin(&self, row: usize, column: usize, unit: &str) -> Result<f64, DataError> {
         let value = self.table.number(row, column, [0; 3])?;
         let kelvin = match unit {
             "_kelvin" => value,
@@ -353,136 +443,26 @@ impl ModulusTable {
         names: &[(&str, &str)],
         modulus: Option<Modulus>,
     ) -> Result<Self, DataError> {
-        let is_frequency = |name: &String| {
-            let name = bare(name);
-            FREQUENCIES.contains(&name) || ANGULAR_FREQUENCIES.contains(&name)
-        };
         let table = Self::table(name, text.trim_start_matches('\u{feff}'))?.renamed(names)?;
-        let has_frequency = table.header().iter().any(is_frequency);
-        let roles = table.header().iter().enumerate();
-        let roles: Vec<(usize, Role)> = roles
-            .filter_map(|(column, header)| Some((column, Role::of(header, has_frequency)?)))
-            .collect();
-        let columns = Columns { table: &table, roles };
-        let missing = |what: &str| {
-            // A column of an unknown unit keeps the brackets in its name.
-            let is_of_unknown_unit = |(column, header): &(usize, &String)| {
-                let name = header.split(['[', '(']).next().map(|name| name.trim_end_matches('_'));
-                let is_role = name.is_some_and(|name| Role::of(name, has_frequency).is_some());
-                is_role
-                    && header.ends_with([')', ']'])
-                    && columns.roles.iter().all(|it| it.0 != *column)
-            };
-            if let Some((_, header)) = table.header().iter().enumerate().find(is_of_unknown_unit) {
-                let message = format!("the unit of the column {header} is not known");
-                return table.header_fault(message).with_help(UNITS);
-            }
-            let found = table.header().join(", ");
-            let message = format!("there is no column of {what}; found are {found}");
-            table.header_fault(message).with_help(COLUMNS)
-        };
-        let abscissa = columns.find(Role::is_abscissa)?;
-        let abscissa = abscissa.ok_or_else(|| missing("a frequency or a time"))?;
-        let temperature = columns.find(|role| matches!(role, Role::Temperature(_)))?;
-        let storage = columns.find(|role| matches!(role, Role::Storage(_)))?;
-        let loss = columns.find(|role| matches!(role, Role::Loss(_)))?;
-        let complex = columns.find(|role| matches!(role, Role::Complex(_)))?;
-        let factor = columns.find(|role| role == Role::LossFactor)?;
-        let factor = match factor {
-            Some(factor) => Some(factor),
-            None => columns.find(|role| role == Role::Phase)?,
-        };
-        let relaxation = columns.find(|role| matches!(role, Role::Relaxation(_)))?;
-        let role_of = |column: usize| columns.roles.iter().find(|it| it.0 == column).map(|it| it.1);
-        let kind = match role_of(abscissa) {
-            Some(Role::Time) => TestKind::Relaxation,
-            _ => TestKind::Oscillation,
-        };
-        // Each row of moduli is read from two columns.
-        let read = match (kind, storage, loss, complex, factor, relaxation) {
-            (TestKind::Oscillation, Some(storage), Some(loss), ..) => vec![storage, loss],
-            (TestKind::Oscillation, Some(storage), None, _, Some(factor), _) => {
-                vec![storage, factor]
-            }
-            (TestKind::Oscillation, None, _, Some(complex), Some(factor), _) => {
-                vec![complex, factor]
-            }
-            (TestKind::Oscillation, Some(_), None, ..) => {
-                return Err(missing("the loss modulus or of tan δ"));
-            }
-            (TestKind::Oscillation, ..) => return Err(missing("the storage modulus")),
-            (TestKind::Relaxation, .., Some(relaxation)) => vec![relaxation],
-            (TestKind::Relaxation, ..) => return Err(missing("the relaxation modulus")),
-        };
-        let named: Vec<Modulus> =
-            read.iter().filter_map(|column| role_of(*column)?.modulus()).collect();
-        let of_columns = named.first().copied();
-        if named.iter().any(|other| Some(*other) != of_columns) {
-            let message = "one modulus is Young's and the other one of shear";
-            return Err(table.header_fault(message).with_help("both are of one test"));
-        }
-        if let (Some(given), Some(found)) = (modulus, of_columns)
-            && given != found
-        {
-            let message = format!("the columns are of the {}", found.key().replace('_', " "));
-            return Err(table.header_fault(message).with_help("leave out --modulus"));
-        }
-        let mut points = Vec::new();
-        for row in 0..table.n_rows() {
-            let used = read.iter().chain([&abscissa]).chain(temperature.as_ref());
-            if used.clone().any(|column| table.is_missing(row, *column)) {
-                continue;
-            }
-            let first = columns.modulus(row, read[0])?;
-            let second = match read.get(1) {
-                None => 0.0,
-                Some(column) => match role_of(*column) {
-                    Some(Role::Loss(_)) => {
-                        let value = columns.modulus(row, *column)?;
-                        if value > LARGEST_LOSS_FACTOR * first {
-                            let help = "a solid has a loss factor of at most 10: are the columns exchanged, or of different units?";
-                            return Err(table.cell_fault(row, *column, value, help));
-                        }
-                        value
-                    }
-                    role => columns.loss_factor(row, *column, role.unwrap_or(Role::LossFactor))?,
-                },
-            };
-            let [storage, loss] = match (storage, loss) {
-                _ if kind == TestKind::Relaxation => [first, 0.0],
-                (Some(_), Some(_)) => [first, second],
-                (Some(_), None) => [first, first * second],
-                // |E*| and tan δ.
-                (None, _) => {
-                    let storage = first / second.hypot(1.0);
-                    [storage, storage * second]
-                }
-            };
-            let temperature = match temperature.map(|column| (column, role_of(column))) {
-                Some((column, Some(Role::Temperature(unit)))) => {
-                    Some(columns.temperature(row, column, unit)?)
-                }
-                _ => None,
-            };
-            let role = role_of(abscissa).unwrap_or(Role::Frequency);
-            let at = columns.abscissa(row, abscissa, role)?;
-            points.push(ModulusPoint { at, storage, loss, temperature, line: table.line(row) });
-        }
+        let columns = Columns::of(&table)?;
+        let named = modulus.or(columns.named_modulus(modulus)?);
+        let points = (0..table.n_rows()).filter_map(|row| columns.point(row).transpose());
+        let points = points.collect::<Result<Vec<_>, _>>()?;
         if points.is_empty() {
             return Err(table.header_fault("no row has all its values").with_help(COLUMNS));
         }
-        let is_read = |column: &usize| {
-            read.contains(column) || *column == abscissa || Some(*column) == temperature
-        };
-        let unread = (0..table.header().len()).filter(|column| !is_read(column));
-        let unread = unread.map(|column| table.header()[column].clone()).collect();
+        let is_unread = |column: &usize| !columns.read().any(|read| read == *column);
+        let unread = (0..table.header().len()).filter(is_unread);
         Ok(Self {
             name: table.name().to_string(),
-            kind,
-            modulus: modulus.or(of_columns).unwrap_or(Modulus::Young),
-            modulus_is_named: modulus.or(of_columns).is_some(),
+            kind: match columns.abscissa.1 {
+                Role::Time => TestKind::Relaxation,
+                _ => TestKind::Oscillation,
+            },
+            modulus: named.unwrap_or(Modulus::Young),
+            modulus_is_named: named.is_some(),
             points,
-            unread,
+            unread: unread.map(|column| table.header()[column].clone()).collect(),
         })
     }
 }

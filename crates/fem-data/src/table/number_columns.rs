@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use fem_case::parse_quantity;
 
-use super::column_roles::ending_of;
+use super::column_roles::{before_brackets, ending_of};
 use super::csv_dialect::{is_missing, is_unit, separator, tabs_for_blanks, with_point};
 use super::csv_table::Table;
 use super::data_error::DataError;
@@ -167,12 +167,8 @@ impl<'a> NumberColumns<'a> {
         if let Some(found) = self.head.find(names)? {
             return Ok(Some(found));
         }
-        // A unit that no column of the program has stays in brackets: `voltage [V]`.
-        let bare = |header: &String| {
-            let name = header.split(['[', '(']).next().unwrap_or_default();
-            names.contains(&name.trim_end_matches('_'))
-        };
-        Ok(self.header().iter().position(bare))
+        let is_it = |header: &String| names.contains(&before_brackets(header));
+        Ok(self.header().iter().position(is_it))
     }
 
     /// Returns the column that has one of these names, as [`NumberColumns::find`] does; `wanted` describes it in the error that there

@@ -6,7 +6,7 @@ use super::csv_table::Table;
 use super::data_error::DataError;
 use super::pairs::MeasuredPairs;
 use super::restitutions::Point;
-use super::restitutions::{MAX_UNCERTAINTY, Restitutions, UnevenUncertainties};
+use super::restitutions::{MAX_RESTITUTION, MAX_UNCERTAINTY, Restitutions, UnevenUncertainties};
 use super::sweep_table::COLUMNS;
 use fem_case::Scene;
 use fem_collision::Status;
@@ -149,8 +149,6 @@ const SPEED: [i32; 3] = [1, 0, -1];
 const TIME: [i32; 3] = [0, 0, 1];
 const LENGTH: [i32; 3] = [1, 0, 0];
 const NUMBER: [i32; 3] = [0; 3];
-/// Larger restitutions are not the scatter of a measurement.
-const MAX_RESTITUTION: f64 = 1.2;
 
 /// The columns that are read in addition to speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]

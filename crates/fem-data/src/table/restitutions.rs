@@ -26,6 +26,8 @@ impl Point {
     }
 }
 
+/// Larger restitutions are not the scatter of a measurement.
+pub const MAX_RESTITUTION: f64 = 1.2;
 /// Larger uncertainties carry no information about a number between 0 and 1.
 pub const MAX_UNCERTAINTY: f64 = 1.0;
 

@@ -325,3 +325,19 @@ fn a_robust_fit_leaves_gross_errors_out() {
         assert_close(profile_high.unwrap() / profile_low.unwrap(), high / low, 0.01);
     }
 }
+
+/// A plain number far from its guess is found: Luding's ratio of springs has the least sum of a fine grid.
+#[test]
+fn a_large_plain_number_is_found() {
+    let (model, points) = (ice_model(LawFamily::Luding), bridges());
+    let problem = Problem::new(&model, &points, &["kp_over_k1"]).unwrap();
+    let fit = problem.fit(0.95).unwrap();
+    let sum = |ratio: f64| {
+        let values = [&[ratio], &fit.values[1..]].concat();
+        let residuals = problem.residuals(&values)?;
+        Some(residuals.iter().map(|residual| residual * residual).sum::<f64>())
+    };
+    let grid = (1..600).filter_map(|k| sum(10f64.powf(0.01 * f64::from(k))));
+    let least = grid.fold(f64::INFINITY, f64::min);
+    assert!(fit.sum_of_squares <= 1.0001 * least, "{} {least}", fit.sum_of_squares);
+}

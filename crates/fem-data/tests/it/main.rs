@@ -8,4 +8,5 @@ mod inverse;
 mod measured;
 mod records;
 mod relaxation;
+mod robust;
 mod spectrum;

@@ -5,10 +5,9 @@ use fem_data::estimate::spectrum::{
     Range, SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, moments, root_mean_square,
     speed_exponent,
 };
-use fem_data::estimate::{FitError, InputPart, Robustness, SPEED};
+use fem_data::estimate::{FitError, InputPart, Robustness, SPEED, quantile};
 use fem_material::PronyTerm;
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::experiment::Experiment;
 use super::fault::CalibrationFault;
@@ -240,7 +239,7 @@ impl Calibration {
     }
 
     fn widened(&self, range: &Range, result: usize, most: f64) -> Range {
-        let quantile = Normal::standard().inverse_cdf(0.5 * (1.0 + self.confidence));
+        let quantile = quantile(self.confidence, None);
         range.widened(quantile * InputPart::sum(&self.inputs, result), (0.0, most))
     }
 

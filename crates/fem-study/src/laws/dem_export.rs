@@ -9,11 +9,9 @@ use fem_data::estimate::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily};
 
+use super::CONFIDENCE;
 use super::chosen_law::{ChosenLaw, model_of};
 use super::impact_curve::ImpactCurve;
-
-/// Confidence level of the fit's intervals, which are not used.
-const CONFIDENCE: f64 = 0.95;
 
 /// Restitutions nearer to 0 or 1 do not determine a law.
 const LOSSLESS: f64 = 1e-7;

@@ -170,23 +170,3 @@ fn standard_deviation(points: &[Point]) -> f64 {
     };
     rms(&points.windows(3).map(distance).collect::<Vec<_>>())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A line over the logarithm of speed has no scatter, and alternating errors ± s have the standard deviation s in the
-    /// mean of many: each point is 2 s from the line between its neighbours.
-    #[test]
-    fn the_scatter_of_points_is_that_about_a_smooth_curve() {
-        let curve = |error: f64| -> Vec<Point> {
-            let signs = (0..40).map(|k| if k % 2 == 0 { error } else { -error });
-            let speeds = (0..40).map(|k| 0.1 * 1.1f64.powi(k));
-            speeds.zip(signs).map(|(v, s)| Point::new(v, 0.9 - 0.02 * v.ln() + s)).collect()
-        };
-        assert!(standard_deviation(&curve(0.0)) < 1e-12);
-        let expected = 0.02 * 2.0 / 1.5f64.sqrt();
-        assert!((standard_deviation(&curve(0.02)) / expected - 1.0).abs() < 1e-9);
-        assert_eq!(standard_deviation(&curve(0.02)[..2]), 0.0);
-    }
-}

@@ -17,13 +17,11 @@ use fem_case::Case;
 use fem_data::estimate::{Fit, Model};
 use fem_laws::{EndRule, LawFamily};
 
+use super::CONFIDENCE;
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
 use fem_data::estimate::loss_parameter;
 use fem_data::table::Restitutions;
-
-/// Confidence level of the fits' intervals, which are not used.
-const CONFIDENCE: f64 = 0.95;
 
 /// Laws whose misfits differ by less make the same curve.
 const SAME: f64 = 1e-6;

@@ -6,11 +6,10 @@ use fem_case::schema::End;
 use fem_case::{Case, UncertainInput};
 use fem_laws::{EndRule, LawFamily};
 use serde::Deserialize;
-use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::chosen_law::{ChosenLaw, model_of};
 use super::law_fault::LawFault;
-use fem_data::estimate::{Model, Point, Problem};
+use fem_data::estimate::{self, Model, Point, Problem};
 use fem_data::table::DataError;
 
 /// Largest relative difference of two numbers of equal bodies, which were written and read.
@@ -137,7 +136,7 @@ impl Keys {
         problem.values.clone_from(&values);
         let changed: Vec<_> =
             self.inputs.iter().map(|input| input.changed(case, model, &self.parameters)).collect();
-        let normal = Normal::standard().inverse_cdf(0.5 * (1.0 + self.confidence));
+        let normal = estimate::quantile(self.confidence, None);
         let row = |&speed: &f64| {
             let e = |(model, values): &(Model, Vec<f64>)| {
                 Some(model.outcome(values, speed).ok()?.restitution)

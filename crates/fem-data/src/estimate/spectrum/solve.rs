@@ -3,7 +3,6 @@
 use std::cell::Cell;
 
 use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::bounded::Linear;
 use super::parts::{Evidence, Parts};
@@ -12,6 +11,7 @@ use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
 use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem};
 use crate::estimate::error::FitError;
+use crate::estimate::least_squares::quantile;
 use crate::estimate::robust::{Fitted, reweight};
 
 /// Step of the differences: weights are of order 1, and collisions are smooth to 1e-7.
@@ -119,7 +119,7 @@ impl<'a> Solver<'a> {
             None => scatter.max(MODEL_ERROR),
         };
         let is_scatter = robustness.is_some() || !is_weighted;
-        let quantile = quantile(confidence, is_scatter.then_some(freedom.max(1)));
+        let quantile = quantile(confidence, is_scatter.then_some(freedom.max(1) as f64));
         let search = RangeSearch {
             restitutions: &|weights| self.evaluate(weights),
             linear: &|weights, restitutions| {
@@ -315,13 +315,4 @@ impl<'a> Solver<'a> {
             b: DVector::from_fn(n_values, |i, _| wanted(i)),
         }
     }
-}
-
-/// Returns the quantile, that of Student's distribution if the error is the scatter of the fit with these degrees of
-/// freedom.
-fn quantile(confidence: f64, freedom: Option<usize>) -> f64 {
-    let upper = 0.5 * (1.0 + confidence);
-    let student = freedom.and_then(|freedom| StudentsT::new(0.0, 1.0, freedom as f64).ok());
-    let normal = || Normal::standard().inverse_cdf(upper);
-    student.map_or_else(normal, |student| student.inverse_cdf(upper))
 }

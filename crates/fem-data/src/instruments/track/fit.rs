@@ -1,5 +1,6 @@
 //! The parabolas of all flights with one acceleration, and the bounces where they meet.
 
+use crate::instruments::bounce_times::LONGEST_FLIGHT;
 use crate::instruments::free_flight::Departure;
 use crate::instruments::impact::Impact;
 use crate::instruments::rig::Rig;
@@ -22,9 +23,6 @@ const LEAST_DRIFT: f64 = 1e-4;
 
 /// Rounds in which apexes and bounces in air settle: each is by the share of drag nearer.
 const AIR_ROUNDS: usize = 4;
-/// Longest time from an apex, s; a longer one is of a flight that is no parabola.
-const LONGEST: f64 = 20.0;
-
 /// The parabolas of all flights.
 pub(super) struct Fit<'a> {
     pub flights: Vec<Option<TrackFlight>>,
@@ -78,7 +76,7 @@ impl<'a> Fit<'a> {
             time(flight.frames.first()).max(time(flight.frames.last()))
         };
         let longest = flights.iter().flatten().map(times).fold(0.0, f64::max);
-        match rig.flights().departures(longest.min(LONGEST)) {
+        match rig.flights().departures(longest.min(LONGEST_FLIGHT)) {
             Some([air, more]) => {
                 let more = fit.in_air(frames, rig, more);
                 Self { more: Some(Box::new(more)), ..fit.in_air(frames, rig, air) }

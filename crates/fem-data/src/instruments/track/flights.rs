@@ -2,8 +2,8 @@
 
 use fem_material::engineering::show;
 
+use crate::estimate::{deviation_by_median, median};
 use crate::instruments::rig::Rig;
-use crate::instruments::series::median;
 use crate::table::DataError;
 
 use super::FEWEST_FRAMES;
@@ -226,7 +226,7 @@ pub(super) fn leave_outliers_out(frames: &Frames, flights: &mut [Option<TrackFli
             (frames.heights[k] - parabola.at(frames.times[k])).abs() * frames.weights[k].sqrt()
         };
         let all: Vec<f64> = flight.frames.iter().map(|k| off(*k)).collect();
-        let limit = OUTLIER * (median(&all) / 0.6745).max(scatter);
+        let limit = OUTLIER * deviation_by_median(&all).max(scatter);
         let kept: Vec<usize> = flight.frames.iter().copied().filter(|k| off(*k) <= limit).collect();
         if kept.len() >= FEWEST_FRAMES && kept.len() < flight.frames.len() {
             n_out += flight.frames.len() - kept.len();

@@ -1,7 +1,7 @@
 //! The frames of a track, and what they show without a fit: their noise, wrong ones among them, and the lowest ones.
 
+use crate::estimate::{deviation_by_median, median};
 use crate::instruments::roles::{HEIGHT_UNCERTAINTIES, HEIGHTS, TIMES};
-use crate::instruments::series::median;
 use crate::table::{DataError, NumberColumns};
 
 /// A frame this many times the noise and the usual curvature above its neighbours is wrong.
@@ -81,8 +81,8 @@ impl Frames {
         };
         let third = |k: usize| (y[k + 3] - 3.0 * y[k + 2] + 3.0 * y[k + 1] - y[k]).abs();
         let all: Vec<f64> = (0..y.len().saturating_sub(3)).filter(is_even).map(third).collect();
-        // The median of a normal distribution's absolute value is 0.6745 σ; the variances add up to 20 σ².
-        if all.is_empty() { 0.0 } else { median(&all) / (0.6745 * 20f64.sqrt()) }
+        // The variances add up to 20 σ².
+        deviation_by_median(&all) / 20f64.sqrt()
     }
 
     /// Returns the lowest frames between rises of at least `rise`.
