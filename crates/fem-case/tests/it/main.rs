@@ -8,3 +8,13 @@ mod overrides;
 mod relaxation_file;
 mod round_trip;
 mod sweep_faults;
+
+use std::path::Path;
+
+use fem_case::{Case, CaseError};
+
+/// Reads a text with overrides, as from a file in a folder.
+fn parse_in(folder: &Path, name: &str, text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse(name, text, folder, &overrides)
+}
