@@ -5,6 +5,8 @@ use std::path::Path;
 use fem_case::{Case, CaseError};
 use fem_material::FlowRule;
 
+use crate::parse_in;
+
 const BALL: &str = r#"
 [material.metal]
 density = 8000
@@ -22,8 +24,7 @@ wall = {}
 "#;
 
 fn parse(folder: &Path, overrides: &[&str]) -> Result<Case, CaseError> {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Case::parse("ball.toml", BALL, folder, &overrides)
+    parse_in(folder, "ball.toml", BALL, overrides)
 }
 
 fn rule(overrides: &[&str]) -> FlowRule {

@@ -5,7 +5,9 @@ use std::path::Path;
 use fem_case::library::{LikeMaterial, materials, table_text};
 use fem_case::schema::BodyTable;
 use fem_case::{Case, CaseFile};
-use fem_material::{ElasticModuli, Material, ModuliInput};
+use fem_material::{ElasticModuli, Material};
+
+use crate::parse_in;
 
 const BALL: &str = "
 [[body]]
@@ -20,8 +22,7 @@ approach_speed = '1 m/s'
 ";
 
 fn parse(text: &str, overrides: &[&str]) -> Result<Case, fem_case::CaseError> {
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    Case::parse("ball.toml", text, Path::new("."), &overrides)
+    parse_in(Path::new("."), "ball.toml", text, overrides)
 }
 
 fn fault(overrides: &[&str]) -> String {
@@ -32,22 +33,19 @@ fn fault(overrides: &[&str]) -> String {
 #[test]
 fn materials_are_solids_with_a_source() {
     assert!(materials().len() > 15, "{:?}", materials().keys());
+    let of = |name: &str| {
+        let case = parse(BALL, &[&format!("body.1.material='lib:{name}'")]).unwrap();
+        case.scene().bodies()[1].material().unwrap().clone()
+    };
     for (name, entry) in materials() {
         for text in [&entry.title, &entry.source, &entry.range] {
             assert!(text.len() > 3, "{name}: {entry:?}");
         }
-        let set = format!("body.1.material='lib:{name}'");
-        let case = parse(BALL, &[&set]).unwrap();
-        let material = case.scene().bodies()[1].material().unwrap();
+        let material = of(name);
         // From cork to tungsten carbide.
         assert!((100.0..20_000.0).contains(&material.density()), "{name}");
         assert!((1e6..6e11).contains(&material.instantaneous().youngs_modulus()), "{name}");
     }
-    let of = |name: &str| {
-        let set = format!("body.1.material='lib:{name}'");
-        let case = parse(BALL, &[&set]).unwrap();
-        *case.scene().bodies()[1].material().unwrap().instantaneous()
-    };
     // Bulk and shear moduli that the sources print beside the two that stand in the library, GPa, and
     // how far their rounding lets them differ.
     for (name, bulk, shear, digit) in [
@@ -59,7 +57,7 @@ fn materials_are_solids_with_a_source() {
         ("tungsten-carbide", 319.0, 219.0, 1.0),
         ("steel", 175.0, 80.8, 0.1),
     ] {
-        let found = of(name);
+        let found = *of(name).instantaneous();
         assert!((found.bulk_modulus() / 1e9 - bulk).abs() <= digit, "{name}: {found:?}");
         assert!((found.shear_modulus() / 1e9 - shear).abs() <= digit, "{name}: {found:?}");
     }
@@ -175,12 +173,8 @@ fn an_unknown_loss_is_known() {
 #[test]
 fn the_nearest_material_is_found_by_its_numbers() {
     let like = |modulus: f64, density: f64, ratio: f64| {
-        let moduli = ModuliInput {
-            youngs_modulus: Some(modulus),
-            poissons_ratio: Some(ratio),
-            ..ModuliInput::default()
-        };
-        let material = Material::new(density, ElasticModuli::from_two(moduli).unwrap(), None);
+        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, ratio).unwrap();
+        let material = Material::new(density, moduli, None);
         let found = LikeMaterial::of(&material.unwrap()).unwrap();
         (found.name, found.is_alike, found.yield_strength)
     };

@@ -10,3 +10,13 @@ mod round_trip;
 #[cfg(feature = "schema")]
 mod schemas;
 mod sweep_faults;
+
+use std::path::Path;
+
+use fem_case::{Case, CaseError};
+
+/// Reads a text with overrides, as from a file in a folder.
+fn parse_in(folder: &Path, name: &str, text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse(name, text, folder, &overrides)
+}

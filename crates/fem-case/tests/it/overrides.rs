@@ -4,6 +4,8 @@ use std::path::Path;
 
 use fem_case::{Case, CaseError, Shape, Snapshots};
 
+use crate::parse_in;
+
 const CASE: &str = r#"
 [material.glass]
 density = 2390
@@ -27,8 +29,7 @@ snapshots = ["maximum"]
 "#;
 
 fn with(overrides: &[&str]) -> Result<Case, CaseError> {
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    Case::parse("pair.toml", CASE, Path::new("."), &overrides)
+    parse_in(Path::new("."), "pair.toml", CASE, overrides)
 }
 
 #[test]
@@ -99,11 +100,8 @@ fn fault(key: &str, marked: &str, message: &str) {
 
 #[test]
 fn faults_in_an_overrides_value_are_marked() {
-    fault(
-        "body.0.approach_speed",
-        "body.0.approach_speed=«1 kg/s»",
-        "approach_speed must be a speed",
-    );
+    let speed = "body.0.approach_speed";
+    fault(speed, "body.0.approach_speed=«1 kg/s»", "approach_speed must be a speed");
     fault("body.0.held", "body.0.held=«yes»", "held is a string");
     fault("title", "title=«{glass»", "not a TOML value");
     fault("title", "title=«[1, 2»", "not a TOML value");
@@ -143,23 +141,11 @@ fn text_that_is_not_toml_is_a_string() {
     }
     // Later overrides of its keys work.
     let case = with(&["model=ting", "model.ting.tolerance=1e-4"]).unwrap();
-    assert_eq!(
-        case.file()
-            .model
-            .as_ref()
-            .unwrap()
-            .ting
-            .as_ref()
-            .unwrap()
-            .tolerance
-            .as_ref()
-            .and_then(|tolerance| tolerance.si().ok()),
-        Some(1e-4)
-    );
-    let law = format!("{CASE}\n[model]\nlaw = 'hertz'\n");
-    Case::parse("pair.toml", &law, Path::new("."), &[]).unwrap();
-    let model = format!("model = 'hertz'\n{CASE}");
-    Case::parse("pair.toml", &model, Path::new("."), &[]).unwrap();
+    let ting = case.file().model.as_ref().and_then(|model| model.ting.clone()).unwrap();
+    assert_eq!(ting.tolerance.unwrap().si().ok(), Some(1e-4));
+    for text in [format!("{CASE}\n[model]\nlaw = 'hertz'\n"), format!("model = 'hertz'\n{CASE}")] {
+        Case::parse("pair.toml", &text, Path::new("."), &[]).unwrap();
+    }
 }
 
 #[test]
@@ -170,11 +156,8 @@ fn faults_in_an_overrides_key_are_marked() {
     fault("body.-1.name", "body.«-1».name='x'", "not an index");
     let long = "body.«99999999999999999999».name='x'";
     fault("body.99999999999999999999.name", long, "not an index");
-    fault(
-        "output.snapshots.1",
-        "output.snapshots.«1»='maximum'",
-        "not an index of this array of 1",
-    );
+    let beyond = "output.snapshots.«1»='maximum'";
+    fault("output.snapshots.1", beyond, "not an index of this array of 1");
     fault("material.glass.density.x", "material.glass.«density».x=1", "a single value");
     fault("mesh.size", "mesh.«size»=1", "unknown key `size` in mesh");
     fault("weather", "«weather»=1", "unknown key `weather`");

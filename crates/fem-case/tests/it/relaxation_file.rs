@@ -4,6 +4,8 @@ use std::path::Path;
 
 use fem_case::{Case, CaseError};
 
+use crate::parse_in;
+
 const BALL: &str = r#"
 [material.polymer]
 density = 1200
@@ -31,8 +33,7 @@ terms = [{ weight = 0.3, relaxation_time = 1e-3 }, { weight = 0.2, decay_rate = 
 fn parse(series: &str, overrides: &[&str]) -> Result<Case, CaseError> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("polymer.relaxation.toml"), series).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Case::parse("ball.toml", BALL, folder.path(), &overrides)
+    parse_in(folder.path(), "ball.toml", BALL, overrides)
 }
 
 fn times(case: &Case) -> Vec<f64> {
@@ -82,60 +83,46 @@ fn a_file_gives_the_series_and_the_temperature_shifts_it() {
 #[test]
 fn faults_of_files_and_temperatures_have_one_answer() {
     let shift = "shift = { wlf = { c1 = 10, c2 = 100 } }\n";
-    let with = |text: &str| SERIES.replace(shift, text);
-    for (series, overrides, expected) in [
-        (String::new(), vec![], "the key `acts_on` is missing in material.polymer.relaxation"),
-        ("acts_on = 'all'\n".into(), vec![], "at least one term"),
+    let reference = "reference_temperature = 293.15\n";
+    let check = |series: &str, overrides: &[&str], expected: &str| {
+        let error = parse(series, overrides).expect_err(series).to_string();
+        assert!(error.contains(expected), "{series}{overrides:?}\n{error}\nlacks {expected}");
+    };
+    // Whole files.
+    for (series, expected) in [
+        ("", "the key `acts_on` is missing in material.polymer.relaxation"),
+        ("acts_on = 'all'\n", "at least one term"),
         (
-            "acts_on = 'all'\nterms = [{ wait = 1 }]\n".into(),
-            vec![],
+            "acts_on = 'all'\nterms = [{ wait = 1 }]\n",
             "polymer.relaxation.toml:2: unknown field `wait`",
         ),
-        ("acts_on = \n".into(), vec![], "polymer.relaxation.toml:1: "),
-        ("file = 'other.toml'\n".into(), vec![], "polymer.relaxation.toml names another file"),
-        (
-            SERIES.into(),
-            vec!["material.polymer.relaxation.file='none.toml'"],
-            "none.toml: there is no such file",
-        ),
-        (
-            SERIES.into(),
-            vec!["material.polymer.relaxation.acts_on='all'"],
-            "relaxation has file and other keys",
-        ),
-        (
-            SERIES.into(),
-            vec!["scene.temperature='-90 degC'"],
-            "shift has no value at the temperature -90.0 degC",
-        ),
-        (SERIES.into(), vec!["scene.temperature='hot'"], "its scale is degC, K or degF"),
-        (SERIES.into(), vec!["scene.temperature=-3"], "temperature is -3.0 K"),
-        (with(""), vec!["scene.temperature=300"], "no material depends on the temperature"),
-        (with("shift = {}\n"), vec![], "shift is exactly one law"),
-        (with("shift = { wlf = { c1 = 10, c2 = 0 } }\n"), vec![], "c2 is 0"),
-        (
-            with("shift = { table = [[300, 0], [290, 1]] }\n"),
-            vec![],
-            "the temperatures do not rise",
-        ),
-        (
-            SERIES.replace("reference_temperature = 293.15\n", ""),
-            vec![],
-            "shift needs reference_temperature",
-        ),
-        (SERIES.replace("to = 100", "to = 0.001"), vec![], "the band ends below its beginning"),
-        (
-            SERIES.replace("to = 100", "to = 100, loss_uncertainty = [[1, 2]]"),
-            vec![],
-            "loss_uncertainty is 2.0",
-        ),
-        (
-            SERIES.replace("to = 100", "to = 100, loss_uncertainty = [[1, 0.1], [1, 0.2]]"),
-            vec![],
-            "the frequencies do not rise",
-        ),
+        ("acts_on = \n", "polymer.relaxation.toml:1: "),
+        ("file = 'other.toml'\n", "polymer.relaxation.toml names another file"),
     ] {
-        let error = parse(&series, &overrides).expect_err(&series).to_string();
-        assert!(error.contains(expected), "{series}{overrides:?}\n{error}\nlacks {expected}");
+        check(series, &[], expected);
+    }
+    // Overrides of a valid one.
+    for (set, expected) in [
+        ("material.polymer.relaxation.file='none.toml'", "none.toml: there is no such file"),
+        ("material.polymer.relaxation.acts_on='all'", "relaxation has file and other keys"),
+        ("scene.temperature='-90 degC'", "shift has no value at the temperature -90.0 degC"),
+        ("scene.temperature='hot'", "its scale is degC, K or degF"),
+        ("scene.temperature=-3", "temperature is -3.0 K"),
+    ] {
+        check(SERIES, &[set], expected);
+    }
+    let without = SERIES.replace(shift, "");
+    check(&without, &["scene.temperature=300"], "no material depends on the temperature");
+    // Parts of a valid one.
+    for (part, wrong, expected) in [
+        (shift, "shift = {}\n", "shift is exactly one law"),
+        (shift, "shift = { wlf = { c1 = 10, c2 = 0 } }\n", "c2 is 0"),
+        (shift, "shift = { table = [[300, 0], [290, 1]] }\n", "the temperatures do not rise"),
+        (reference, "", "shift needs reference_temperature"),
+        ("100 }", "0.001 }", "the band ends below its beginning"),
+        ("100 }", "100, loss_uncertainty = [[1, 2]] }", "loss_uncertainty is 2.0"),
+        ("100 }", "100, loss_uncertainty = [[1, 0.1], [1, 0.2]] }", "the frequencies do not rise"),
+    ] {
+        check(&SERIES.replacen(part, wrong, 1), &[], expected);
     }
 }

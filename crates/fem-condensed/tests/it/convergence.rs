@@ -83,10 +83,7 @@ fn two_shear_blocks_equal_four_within_tolerance() {
         let scene = Scene::paper(relaxing.clone(), relaxing);
         let run = |shear_blocks: usize| {
             let settings = PairSettings { shear_blocks, ..scene.settings() };
-            scene
-                .collide(&CondensedPair::new(scene.inputs(8.0), settings).unwrap())
-                .restitution
-                .unwrap()
+            scene.collide(&scene.condensed_with(8.0, settings)).restitution.unwrap()
         };
         let [one, two, three, four] = [1, 2, 3, 4].map(run);
         assert!((two - four).abs() < tolerance, "{two} {four}");
@@ -139,8 +136,7 @@ fn soft_bulk_and_strong_relaxation_have_the_blocks_they_need() {
         let run = |shear_blocks: usize| {
             let region = PairSettings::new(3.0 * scene.hertz().max_contact_radius());
             let settings = PairSettings { shear_blocks, ..region };
-            let run = scene.collide(&CondensedPair::new(scene.inputs(6.0), settings).unwrap());
-            run.restitution.unwrap()
+            scene.collide(&scene.condensed_with(6.0, settings)).restitution.unwrap()
         };
         let [usual, eight] = [PairSettings::new(1.0).shear_blocks, 8].map(run);
         // 2e-7 measured.

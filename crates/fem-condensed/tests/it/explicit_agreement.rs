@@ -2,7 +2,6 @@
 
 use crate::common::{Scene, assert_close, assert_restitution, explicit, glass, unlike_scenes};
 use fem_collision::{HistoryRow, OutputRequest};
-use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 
 /// Elements across the contact radius.
 const ELEMENTS: f64 = 5.0;
@@ -32,9 +31,7 @@ fn six_scenes_equal_the_explicit_results() {
         let stiffness = PENALTY * scene.pair().contact_modulus();
         let inputs = scene.inputs(ELEMENTS);
         let reference = explicit(inputs, &scene.hertz(), stiffness, &OutputRequest::history());
-        let contact = ContactModel::Springs(stiffness);
-        let settings = PairSettings { contact, vibration_modes: MODES, ..scene.settings() };
-        let pair = CondensedPair::new(scene.inputs(ELEMENTS), settings).unwrap();
+        let pair = scene.on_springs(ELEMENTS, stiffness, MODES);
         let frame = pair.frame(scene.speed).unwrap();
         let relaxations = pair.relaxations();
         let run =
@@ -50,12 +47,8 @@ fn six_scenes_equal_the_explicit_results() {
         // The explicit contact rattles a little: 1e-5.
         assert_restitution(name, &run, restitution, 5e-5);
         assert_close(name, run.max_approach.unwrap(), reference.max_approach.unwrap(), 3e-5);
-        assert_close(
-            name,
-            run.max_contact_radius.unwrap(),
-            reference.max_contact_radius.unwrap(),
-            3e-4,
-        );
+        let [found, radius] = [&run, &reference].map(|run| run.max_contact_radius.unwrap());
+        assert_close(name, found, radius, 3e-4);
         // Its peaks are those of a noisy force.
         assert_close(name, run.peak_force.unwrap(), reference.peak_force.unwrap(), 3e-3);
         assert_close(name, run.peak_pressure.unwrap(), reference.peak_pressure.unwrap(), 5e-3);

@@ -1,6 +1,8 @@
 //! A ball on a half-space, and waves that leave it.
 
-use crate::common::{GLASS, POLYMER, assert_close, assert_pulse, glass, hertz_pulse, material};
+use crate::common::{
+    GLASS, POLYMER, assert_close, assert_pulse, glass, hertz_pulse, material, sphere,
+};
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Expectation, Frame, OutputRequest, SnapshotInstant,
     SnapshotRequest, far_radius_at_rest, far_radius_of_waves,
@@ -13,7 +15,7 @@ use fem_laws::{
     radiation_coefficient,
 };
 use fem_material::{ActsOn, Material};
-use fem_mesh::{HalfDisc, QuarterDisc, Side};
+use fem_mesh::{QuarterDisc, Side};
 
 const RADIUS: f64 = 5e-3;
 /// Steps over the contact that leave 1e-8 of the energy to the step.
@@ -61,14 +63,8 @@ impl Ball {
 
     fn sphere(&self) -> BodyInput {
         let contact_radius = self.hertz().max_contact_radius();
-        let disc = HalfDisc {
-            radius: RADIUS,
-            contact_element_size: contact_radius / self.elements,
-            refined_radius: 1.2 * contact_radius,
-            growth: None,
-            edge: None,
-        };
-        let mesh = disc.build().unwrap().on_side(Side::Above);
+        let size = contact_radius / self.elements;
+        let mesh = sphere(RADIUS, size, 1.2 * contact_radius, Side::Above);
         BodyInput::Sphere { mesh, material: self.ball.clone() }
     }
 

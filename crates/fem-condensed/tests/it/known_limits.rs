@@ -5,7 +5,7 @@ use crate::common::{
     assert_pulse, assert_restitution, collide, glass, hertz_pulse, material, ting_pulse,
     unlike_scenes,
 };
-use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
+use fem_condensed::{CondensedError, CondensedPair};
 use fem_material::ActsOn::{All, Shear};
 
 /// Converged quasi-static finite elements (another code, h = 3.75 µm), met at the default element
@@ -200,9 +200,7 @@ fn stiff_penalty_springs_approach_exact_contact() {
     let scene = Scene::paper(glass(), glass());
     let exact = scene.collide(&scene.condensed(8.0));
     let time = |factor: f64| {
-        let contact = ContactModel::Springs(factor * scene.pair().contact_modulus());
-        let settings = PairSettings { contact, ..scene.settings() };
-        let pair = CondensedPair::new(scene.inputs(8.0), settings).unwrap();
+        let pair = scene.on_springs(8.0, factor * scene.pair().contact_modulus(), 0);
         scene.collide(&pair).contact_time.unwrap() / exact.contact_time.unwrap() - 1.0
     };
     let (soft, stiff) = (time(1.0), time(100.0));

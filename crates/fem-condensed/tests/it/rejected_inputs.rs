@@ -1,11 +1,11 @@
 //! Rejected input, and regions that are enlarged.
 
-use crate::common::{Scene, assert_close, collide, glass};
+use crate::common::{Scene, assert_close, collide, glass, sphere};
 use fem_collision::{
     BodyInput, Ending, Frame, Monitor, OutputRequest, Progress, StepInstant, Stop,
 };
 use fem_condensed::{CondensedError, CondensedPair, PairSettings};
-use fem_mesh::{HalfDisc, Side};
+use fem_mesh::Side;
 
 #[test]
 fn contact_beyond_the_candidate_region_is_reported_and_enlarged() {
@@ -81,9 +81,8 @@ fn stopped_run_keeps_its_results_so_far() {
 fn unresolved_vibration_modes_are_left_out() {
     let scene = Scene::paper(glass(), glass());
     for (elements, most) in [(0.25, 12), (4.0, 30)] {
-        let settings = PairSettings { vibration_modes: 100, ..scene.settings() };
-        let settings = PairSettings { candidate_radius: 1.2e-3, ..settings };
-        let pair = CondensedPair::new(scene.inputs(elements), settings).unwrap();
+        let settings = PairSettings { vibration_modes: 100, ..PairSettings::new(1.2e-3) };
+        let pair = scene.condensed_with(elements, settings);
         let counts = pair.frequencies().map(<[f64]>::len);
         assert!(counts.iter().all(|&n| n > 0 && n < most), "{elements}: {counts:?}");
         let run = collide(&pair, 0.5);
@@ -99,11 +98,7 @@ fn excess_requested_modes_leave_the_resolved_modes_unchanged() {
     for diameter in [15.9e-3, 22.2e-3, 60e-3] {
         let bodies = [22.2e-3, diameter].map(|diameter| Some((diameter, glass())));
         let scene = Scene { bodies, speed: 20.0 };
-        let of = |vibration_modes: usize| {
-            let settings = PairSettings { vibration_modes, ..scene.settings() };
-            CondensedPair::new(scene.inputs(8.0), settings).unwrap()
-        };
-        let (pair, fewer) = (of(100), of(60));
+        let [pair, fewer] = [100, 60].map(|modes| scene.vibrating(8.0, modes));
         let counts = pair.frequencies().map(<[f64]>::len);
         let name = format!("{diameter} m: {counts:?}");
         assert!(counts.iter().all(|&n| n > 12 && n < 60), "{name}");
@@ -158,15 +153,7 @@ fn frequencies_converge_to_those_of_a_sphere() {
     const EXACT: [f64; 6] = [2.63906, 3.41139, 3.91364, 4.38361, 4.84778, 5.00467];
     let glass = glass();
     let errors = [0.1, 0.05].map(|size| {
-        let (contact_element_size, refined_radius) = (size, 0.5);
-        let disc = HalfDisc {
-            radius: 1.0,
-            contact_element_size,
-            refined_radius,
-            growth: None,
-            edge: None,
-        };
-        let mesh = disc.build().unwrap().on_side(Side::Above);
+        let mesh = sphere(1.0, size, 0.5, Side::Above);
         let sphere = BodyInput::Sphere { mesh, material: glass.clone() };
         let settings = PairSettings { vibration_modes: 6, ..PairSettings::new(0.3) };
         let pair = CondensedPair::new([BodyInput::Wall, sphere], settings).unwrap();

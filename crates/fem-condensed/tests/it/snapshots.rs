@@ -5,7 +5,7 @@ use fem_collision::{
     Approach, BodyInput, Collision, Frame, OutputRequest, SnapshotInstant, SnapshotRequest,
     StressField,
 };
-use fem_condensed::{CondensedPair, ContactModel, PairSettings};
+use fem_condensed::CondensedPair;
 use fem_material::ActsOn::{self, All, Shear};
 use fem_material::Material;
 
@@ -35,8 +35,7 @@ fn snapshots_agree_with_the_rigid_body_motion() {
     ];
     for (lower, upper, vibration_modes) in cases {
         let scene = Scene::paper(lower, upper);
-        let settings = PairSettings { vibration_modes, ..scene.settings() };
-        let pair = CondensedPair::new(scene.inputs(8.0), settings).unwrap();
+        let pair = scene.vibrating(8.0, vibration_modes);
         let approach = Approach::new([0.7, 0.2], 1e-6).unwrap();
         let frame = Frame { approach, ..pair.frame(0.5).unwrap() };
         let run =
@@ -44,10 +43,8 @@ fn snapshots_agree_with_the_rigid_body_motion() {
         let (snapshots, missing) = (&run.snapshots, &run.warnings);
         assert!(missing.is_empty() && snapshots.len() == 4, "{missing:?}");
         assert!(snapshots.windows(2).all(|two| two[0].time < two[1].time));
-        let momentum = {
-            let [lower, upper] = pair.masses();
-            lower * 0.7 + upper * 0.2
-        };
+        let [lower, upper] = pair.masses();
+        let momentum = lower * 0.7 + upper * 0.2;
         for snapshot in snapshots {
             let mut total = 0.0;
             let mut centres = [0.0; 2];
@@ -106,8 +103,7 @@ fn snapshots_agree_with_the_rigid_body_motion() {
 fn velocities_are_the_change_of_displacements() {
     for (glass, vibration_modes) in [(glass(), 0), (relaxing(Shear), 6)] {
         let scene = Scene { speed: 3.0, ..Scene::paper(glass.clone(), glass) };
-        let settings = PairSettings { vibration_modes, ..scene.settings() };
-        let pair = CondensedPair::new(scene.inputs(6.0), settings).unwrap();
+        let pair = scene.vibrating(6.0, vibration_modes);
         let frame = pair.frame(scene.speed).unwrap();
         let step = drawn(&pair, frame, SnapshotRequest::none(), 400).time_step.unwrap();
         for k in [60.0, 240.0] {
@@ -139,8 +135,7 @@ fn velocities_are_the_change_of_displacements() {
 #[test]
 fn vibration_energy_is_that_of_the_fields() {
     let scene = Scene { speed: 5.0, ..Scene::paper(glass(), glass()) };
-    let settings = PairSettings { vibration_modes: 8, ..scene.settings() };
-    let pair = CondensedPair::new(scene.inputs(5.0), settings).unwrap();
+    let pair = scene.vibrating(5.0, 8);
     let frame = pair.frame(scene.speed).unwrap();
     let run = drawn(&pair, frame, SnapshotRequest::none(), 200);
     let (step, last) = (run.time_step.unwrap(), run.last_contact.unwrap());
@@ -174,8 +169,7 @@ fn effective_displacement_is_the_convolution_with_the_modulus() {
     let (weight, rate) = (0.6, 3e4);
     let relaxing = material(GLASS, All, &[(weight, rate)]);
     let scene = Scene { speed: 8.0, ..Scene::paper(relaxing.clone(), relaxing) };
-    let settings = PairSettings { vibration_modes: 8, ..scene.settings() };
-    let pair = CondensedPair::new(scene.inputs(4.0), settings).unwrap();
+    let pair = scene.vibrating(4.0, 8);
     let frame = pair.frame(scene.speed).unwrap();
     let run = drawn(&pair, frame, SnapshotRequest::none(), 300);
     let (step, last) = (run.time_step.unwrap(), run.last_contact.unwrap());
@@ -250,12 +244,7 @@ fn fields_are_the_explicit_ones() {
     let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
     let request = OutputRequest { snapshots: snapshots.clone(), ..OutputRequest::history() };
     let reference = explicit(scene.inputs(5.0), &hertz, stiffness, &request);
-    let settings = PairSettings {
-        contact: ContactModel::Springs(stiffness),
-        vibration_modes: 12,
-        ..scene.settings()
-    };
-    let pair = CondensedPair::new(scene.inputs(5.0), settings).unwrap();
+    let pair = scene.on_springs(5.0, stiffness, 12);
     let run = drawn(&pair, pair.frame(0.5).unwrap(), snapshots, 1000);
     for side in 0..2 {
         let (found, expected) =

@@ -1,13 +1,12 @@
 //! Whole collisions with contact between the surfaces where they are now.
 
-use crate::common::{Pair, Quantities, quantities};
+use crate::common::{Pair, Quantities, elastic, quantities, settings, sphere};
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
 };
 use fem_explicit::{Contact, DeformedContact, ExplicitBodies, ModelParts, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
-use fem_material::{ElasticModuli, Material};
-use fem_mesh::{HalfDisc, Side};
+use fem_mesh::Side;
 
 /// With contact on the undeformed surfaces, or on the moved ones.
 fn model(
@@ -18,13 +17,8 @@ fn model(
 ) -> ExplicitBodies {
     let moved = is_moved.then(|| DeformedContact::new(&bodies, approach.gap(), settings).unwrap());
     let contact = moved.map(|contact| Box::new(contact) as Box<dyn Contact>);
-    ExplicitBodies::with_parts(
-        bodies,
-        approach,
-        settings,
-        ModelParts { contact, ..ModelParts::default() },
-    )
-    .unwrap()
+    let parts = ModelParts { contact, ..ModelParts::default() };
+    ExplicitBodies::with_parts(bodies, approach, settings, parts).unwrap()
 }
 
 fn of_pair(pair: &Pair, bodies: [BodyInput; 2]) -> [ExplicitBodies; 2] {
@@ -75,29 +69,15 @@ fn like_bodies_on_deformed_surfaces_equal_undeformed_ones() {
 #[test]
 fn unlike_bodies_on_deformed_surfaces_include_the_surface_slip() {
     let (contact_radius, speed) = (0.147e-3, 0.54);
-    let sphere = |radius, modulus, poisson, density, side| {
-        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, poisson).unwrap();
-        let disc = HalfDisc {
-            radius,
-            contact_element_size: contact_radius / 5.0,
-            refined_radius: 1.3 * contact_radius,
-            growth: None,
-            edge: None,
-        };
-        let mesh = disc.build().unwrap().on_side(side);
-        BodyInput::Sphere { mesh, material: Material::new(density, moduli, None).unwrap() }
+    let body = |radius, side, material| {
+        let mesh = sphere(radius, contact_radius / 5.0, 1.3 * contact_radius, side);
+        BodyInput::Sphere { mesh, material }
     };
     let bodies = [
-        sphere(20e-3, 3e9, 0.2, 1200.0, Side::Below),
-        sphere(2e-3, 210e9, 0.3, 7850.0, Side::Above),
+        body(20e-3, Side::Below, elastic(3e9, 0.2, 1200.0)),
+        body(2e-3, Side::Above, elastic(210e9, 0.3, 7850.0)),
     ];
-    let settings = Settings {
-        contact_stiffness: 10.0 * 3.083e9,
-        candidate_radius: 1.5 * contact_radius,
-        step_factor: 0.9,
-        mass_scaling: 2e-4,
-        mass_times: [1.0; 2],
-    };
+    let settings = settings(10.0 * 3.083e9, 1.5 * contact_radius);
     let expected = Expectation { contact_time: 67e-6, approach: 12e-6 };
     let run = |moved: bool| {
         let model = model(bodies.clone(), Approach::at(speed).unwrap(), &settings, moved);
@@ -139,24 +119,9 @@ fn deformed_surface_run_resumes_to_the_bit() {
 
 /// A rubber ball of 30 mm, E 5 MPa, ν 0.45, on a wall.
 fn rubber(element_size: f64, candidate_radius: f64) -> ([BodyInput; 2], Settings) {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(5e6, 0.45).unwrap();
-    let material = Material::new(1000.0, moduli, None).unwrap();
-    let disc = HalfDisc {
-        radius: 15e-3,
-        contact_element_size: element_size,
-        refined_radius: 7.5e-3,
-        growth: None,
-        edge: None,
-    };
-    let mesh = disc.build().unwrap().on_side(Side::Above);
-    let settings = Settings {
-        contact_stiffness: 20.0 * 6.27e6,
-        candidate_radius,
-        step_factor: 0.9,
-        mass_scaling: 2e-4,
-        mass_times: [1.0; 2],
-    };
-    ([BodyInput::Wall, BodyInput::Sphere { mesh, material }], settings)
+    let mesh = sphere(15e-3, element_size, 7.5e-3, Side::Above);
+    let ball = BodyInput::Sphere { mesh, material: elastic(5e6, 0.45, 1000.0) };
+    ([BodyInput::Wall, ball], settings(20.0 * 6.27e6, candidate_radius))
 }
 
 /// The largest force over the largest of means over a hundredth of the contact time, less 1.
@@ -228,16 +193,8 @@ fn folding_surface_stops_the_run() {
 fn finite_strain_selects_deformed_surface_contact_by_default() {
     let (on_wall, settings) = rubber(1.2e-3, 10e-3);
     let [_, ball] = &on_wall;
-    let steel = ElasticModuli::from_youngs_modulus_poissons_ratio(2e9, 0.3).unwrap();
-    let disc = HalfDisc {
-        radius: 10e-3,
-        contact_element_size: 1.2e-3,
-        refined_radius: 5e-3,
-        growth: None,
-        edge: None,
-    };
-    let mesh = disc.build().unwrap().on_side(Side::Below);
-    let stiff = BodyInput::Sphere { mesh, material: Material::new(7850.0, steel, None).unwrap() };
+    let mesh = sphere(10e-3, 1.2e-3, 5e-3, Side::Below);
+    let stiff = BodyInput::Sphere { mesh, material: elastic(2e9, 0.3, 7850.0) };
     let rigid = BodyInput::Rigid { radius: 10e-3, mass: 0.0329 };
     let expected = Expectation { contact_time: 1.8e-3, approach: 2.8e-3 };
     for lower in [BodyInput::Wall, rigid, stiff] {

@@ -4,14 +4,14 @@ use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, StepInstant, Stop,
 };
 use fem_explicit::{
-    Contact, DeformedContact, ExplicitBodies, FreeMotion, ModelError, ModelParts, Run, RunState,
-    Settings, collide,
+    Contact, DeformedContact, ExplicitBodies, FreeMotion, ModelError, ModelParts, Run, Settings,
+    collide,
 };
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
-use fem_mesh::{HalfDisc, Side, SphereMesh};
+use fem_material::{ActsOn, Material, PronySeries, PronyTerm};
+use fem_mesh::{Side, SphereMesh};
 
-use crate::common::{Pair, quantities};
+use crate::common::{Pair, elastic, quantities, settings, sphere, stored};
 
 /// A rubber ball of 30 mm that flies at a wall.
 #[derive(Clone, Copy)]
@@ -49,8 +49,7 @@ impl Default for Ball {
 
 impl Ball {
     fn material(&self) -> Material {
-        let moduli =
-            ElasticModuli::from_youngs_modulus_poissons_ratio(YOUNGS_MODULUS, self.nu).unwrap();
+        let moduli = *elastic(YOUNGS_MODULUS, self.nu, DENSITY).instantaneous();
         let terms = self
             .terms
             .iter()
@@ -73,26 +72,14 @@ impl Ball {
     }
 
     fn mesh(&self) -> SphereMesh {
-        let disc = HalfDisc {
-            radius: RADIUS,
-            contact_element_size: RADIUS / self.n,
-            refined_radius: 0.5 * RADIUS,
-            growth: None,
-            edge: None,
-        };
-        disc.build().unwrap().on_side(Side::Above)
+        sphere(RADIUS, RADIUS / self.n, 0.5 * RADIUS, Side::Above)
     }
 
     fn model(&self) -> ExplicitBodies {
         let (mesh, material) = (self.mesh(), self.material());
         let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
-        let settings = Settings {
-            contact_stiffness: self.penalty * self.contact_modulus(),
-            candidate_radius: 0.95 * RADIUS,
-            step_factor: 0.9,
-            mass_scaling: 1e-3,
-            mass_times: [1.0; 2],
-        };
+        let usual = settings(self.penalty * self.contact_modulus(), 0.95 * RADIUS);
+        let settings = Settings { mass_scaling: 1e-3, ..usual };
         let approach = Approach::new([0.0, -self.speed], 0.0).unwrap();
         let parts = ModelParts { finite_strain: [None, self.law], ..ModelParts::default() };
         ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
@@ -220,9 +207,7 @@ fn time_step_follows_the_critical_step_and_resumes_to_the_bit() {
     let mut saved = Run::new(&model, ball.expected(), &request).restart_state().clone();
     let mut steps = Vec::new();
     let resumed = loop {
-        let bytes = postcard::to_stdvec(&saved).unwrap();
-        let stored: RunState = postcard::from_bytes(&bytes).unwrap();
-        let mut run = Run::resume(&model, stored).unwrap();
+        let mut run = Run::resume(&model, stored(&saved)).unwrap();
         let has_ended = run.advance(20).is_some();
         steps.push((run.restart_state().time() - saved.time()) / 20.0 / model.time_step());
         if has_ended {
@@ -245,12 +230,7 @@ fn time_step_follows_the_critical_step_and_resumes_to_the_bit() {
 /// it; a still slower one, and neo-Hooke's, has nothing to say.
 #[test]
 fn loss_of_ellipticity_warns_or_stops_the_run() {
-    let ball = |law: HyperelasticLaw, speed: f64| Ball {
-        nu: 0.45,
-        speed,
-        law: Some(law),
-        ..Ball::default()
-    };
+    let ball = |law, speed| Ball { nu: 0.45, speed, law: Some(law), ..Ball::default() };
     let law = HyperelasticLaw::SaintVenantKirchhoff;
     let run = ball(law, 6.0).run();
     let Ending::Stopped(stop) = &run.ending else {
@@ -338,28 +318,14 @@ fn too_many_terms_are_refused() {
 
 /// A rubber ball; lengths in m, moduli in Pa.
 fn rubber_ball(radius: f64, n: f64, youngs_modulus: f64, side: Side) -> BodyInput {
-    let disc = HalfDisc {
-        radius,
-        contact_element_size: radius / n,
-        refined_radius: 0.5 * radius,
-        growth: None,
-        edge: None,
-    };
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, 0.45).unwrap();
-    let material = Material::new(1000.0, moduli, None).unwrap();
-    BodyInput::Sphere { mesh: disc.build().unwrap().on_side(side), material }
+    let mesh = sphere(radius, radius / n, 0.5 * radius, side);
+    BodyInput::Sphere { mesh, material: elastic(youngs_modulus, 0.45, 1000.0) }
 }
 
 /// Two balls that meet at a speed, m/s; contact is looked for up to the equator of the smaller one.
 fn run_pressed_flat(bodies: [BodyInput; 2], speed: f64) -> Collision {
     let radii = bodies.each_ref().map(|body| body.mesh().unwrap().radius());
-    let settings = Settings {
-        contact_stiffness: 10.0 * 6e5,
-        candidate_radius: 0.999 * radii[0].min(radii[1]),
-        step_factor: 0.9,
-        mass_scaling: 2e-4,
-        mass_times: [1.0; 2],
-    };
+    let settings = settings(10.0 * 6e5, 0.999 * radii[0].min(radii[1]));
     let law = Some(HyperelasticLaw::NeoHooke);
     let parts = ModelParts { finite_strain: [law; 2], ..ModelParts::default() };
     let approach = Approach::new([0.0, -speed], 0.0).unwrap();

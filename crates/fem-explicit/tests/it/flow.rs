@@ -1,12 +1,12 @@
 //! Collisions of bodies that flow plastically.
 
 use fem_collision::{Account, Approach, BodyInput, Collision, Expectation, OutputRequest};
-use fem_explicit::{ExplicitBodies, ModelParts, Settings, collide};
+use fem_explicit::{ExplicitBodies, ModelParts, collide};
+use fem_material::FlowRule;
 use fem_material::finite::HyperelasticLaw;
-use fem_material::{ElasticModuli, FlowRule, Material};
-use fem_mesh::{HalfDisc, Side};
+use fem_mesh::Side;
 
-use crate::common::Pair;
+use crate::common::{Pair, elastic, settings, sphere};
 
 /// A steel ball on a rigid wall: m, Pa, kg/m³.
 const RADIUS: f64 = 5e-3;
@@ -27,8 +27,7 @@ fn yield_speed() -> f64 {
 /// The collision at a speed, with five elements per contact radius of a mean pressure of 3 Y, or of Hertz if that is
 /// smaller.
 fn collision(speed: f64) -> Collision {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(YOUNGS_MODULUS, NU).unwrap();
-    let material = Material::new(DENSITY, moduli, None).unwrap();
+    let material = elastic(YOUNGS_MODULUS, NU, DENSITY);
     let material = material.with_flow(FlowRule::perfect(YIELD).unwrap()).unwrap();
     let mass = 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3) * DENSITY;
     let energy = 0.5 * mass * speed * speed;
@@ -36,21 +35,8 @@ fn collision(speed: f64) -> Collision {
     let approach = (15.0 * energy / (8.0 * stiffness)).powf(0.4);
     let plastic = (4.0 * RADIUS * energy / (3.0 * std::f64::consts::PI * YIELD)).powf(0.25);
     let radius = plastic.min((RADIUS * approach).sqrt());
-    let disc = HalfDisc {
-        radius: RADIUS,
-        contact_element_size: radius / 5.0,
-        refined_radius: 1.5 * radius,
-        growth: None,
-        edge: None,
-    };
-    let mesh = disc.build().unwrap().on_side(Side::Above);
-    let settings = Settings {
-        contact_stiffness: 20.0 * contact_modulus(),
-        candidate_radius: 2.5 * radius,
-        step_factor: 0.9,
-        mass_scaling: 2e-4,
-        mass_times: [1.0; 2],
-    };
+    let mesh = sphere(RADIUS, radius / 5.0, 1.5 * radius, Side::Above);
+    let settings = settings(20.0 * contact_modulus(), 2.5 * radius);
     let parts = ModelParts {
         finite_strain: [None, Some(HyperelasticLaw::Hencky)],
         finite_strain_within: Some(3.0 * radius),

@@ -8,16 +8,16 @@ use fem_collision::{
 };
 use fem_contact::ContactError;
 use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, QuarterDisc, Side};
+
+use crate::common::{CONTACT_MODULUS, elastic, settings, sphere};
 
 const RADIUS: f64 = 5e-3;
 const DENSITY: f64 = 2390.0;
-/// E/(1 − ν²)/2 of the glass, E = 63 GPa and ν = 0.244.
-const CONTACT_MODULUS: f64 = 33.494e9;
 
 fn glass(relaxation: Option<PronySeries>) -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    let moduli = *elastic(63e9, 0.244, DENSITY).instantaneous();
     Material::new(DENSITY, moduli, relaxation).unwrap()
 }
 
@@ -112,13 +112,8 @@ impl Ball {
             Side::Above => ([ball, block], [self.speed, 0.0]),
         };
         let velocities = velocities.map(|velocity| velocity + self.drift);
-        let settings = Settings {
-            contact_stiffness: 10.0 * CONTACT_MODULUS,
-            candidate_radius,
-            step_factor: 0.9,
-            mass_scaling: self.mass_scaling,
-            mass_times: [1.0; 2],
-        };
+        let usual = settings(10.0 * CONTACT_MODULUS, candidate_radius);
+        let settings = Settings { mass_scaling: self.mass_scaling, ..usual };
         ExplicitBodies::new(bodies, Approach::new(velocities, 0.0).unwrap(), &settings).unwrap()
     }
 
@@ -177,27 +172,12 @@ fn a_partner_forty_times_larger_is_a_half_space() {
     let hertz = Hertz::at(5.0);
     let model = Ball::default().model();
     let [_, ball] = model.bodies();
-    let partner = HalfDisc {
-        radius: 40.0 * RADIUS,
-        contact_element_size: hertz.contact_radius / 6.0,
-        refined_radius: 1.2 * hertz.contact_radius,
-        growth: None,
-        edge: None,
-    };
-    let bodies = [
-        BodyInput::Sphere {
-            mesh: partner.build().unwrap().on_side(Side::Below),
-            material: glass(None),
-        },
-        BodyInput::Sphere { mesh: ball.mesh().unwrap().clone(), material: glass(None) },
-    ];
-    let settings = Settings {
-        contact_stiffness: 10.0 * CONTACT_MODULUS,
-        candidate_radius: 1.5 * hertz.contact_radius,
-        step_factor: 0.9,
-        mass_scaling: 0.0,
-        mass_times: [1.0; 2],
-    };
+    let contact_radius = hertz.contact_radius;
+    let partner = sphere(40.0 * RADIUS, contact_radius / 6.0, 1.2 * contact_radius, Side::Below);
+    let bodies = [partner, ball.mesh().unwrap().clone()]
+        .map(|mesh| BodyInput::Sphere { mesh, material: glass(None) });
+    let usual = settings(10.0 * CONTACT_MODULUS, 1.5 * contact_radius);
+    let settings = Settings { mass_scaling: 0.0, ..usual };
     let large = ExplicitBodies::new(bodies, *model.approach(), &settings).unwrap();
     let expected = Ball::default().expected();
     let large = collide(&large, expected, &OutputRequest::quantities(), &mut ());
@@ -339,13 +319,7 @@ fn half_space_rejects_a_plane_partner() {
         let mesh = disc.build().unwrap().on_side(side);
         BodyInput::HalfSpace { mesh, material: glass(None) }
     };
-    let settings = Settings {
-        contact_stiffness: CONTACT_MODULUS,
-        candidate_radius: 0.1,
-        step_factor: 0.9,
-        mass_scaling: 0.0,
-        mass_times: [1.0; 2],
-    };
+    let settings = Settings { mass_scaling: 0.0, ..settings(CONTACT_MODULUS, 0.1) };
     for upper in [BodyInput::Wall, block(Side::Above)] {
         let bodies = [block(Side::Below), upper];
         let refused =

@@ -10,7 +10,7 @@ use fem_material::{
     ActsOn, FlowPoint, FlowRule, Hardening, Material, PronySeries, PronyTerm, RateFactor,
 };
 
-use crate::common::{unit_glass, unit_sphere};
+use crate::common::{settings, unit_glass, unit_sphere};
 
 /// A unit sphere that hits a wall at a tenth of the shear wave speed, with relaxation terms of these weights.
 fn model(weights: &[f64], acts_on: ActsOn, parts: ModelParts, viscosity: bool) -> ExplicitBodies {
@@ -27,13 +27,7 @@ fn model_of(material: Material, parts: ModelParts, viscosity: bool) -> ExplicitB
     let forces = viscosity.then(|| Box::new(force) as Box<dyn NodeForce>);
     let parts = ModelParts { node_forces: [Vec::new(), Vec::from_iter(forces)], ..parts };
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
-    let settings = Settings {
-        contact_stiffness: 5.0,
-        candidate_radius: 0.9,
-        step_factor: 0.9,
-        mass_scaling: 0.0,
-        mass_times: [1.0; 2],
-    };
+    let settings = Settings { mass_scaling: 0.0, ..settings(5.0, 0.9) };
     let approach = Approach::new([0.0, -0.1], 0.0).unwrap();
     ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
 }

@@ -296,10 +296,8 @@ fn custom_contact_replaces_the_penalty_contact_and_resumes() {
     for relaxation in [None, Some(fem_material::ActsOn::Shear)] {
         let pair = Pair { relaxation, ..small() };
         let contact = || Some(Box::new(Counting::of(&pair)) as Box<dyn Contact>);
-        let (plain, other) = (
-            pair.model(),
-            model(&pair, ModelParts { contact: contact(), ..ModelParts::default() }),
-        );
+        let parts = ModelParts { contact: contact(), ..ModelParts::default() };
+        let (plain, other) = (pair.model(), model(&pair, parts));
         assert!(plain.interface().is_some() && other.interface().is_none());
         assert_eq!(other.candidate_radius(), plain.candidate_radius());
         let run = pair.run_model(&plain);

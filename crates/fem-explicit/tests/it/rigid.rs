@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{CONTACT_MODULUS, Pair, quantities, stored};
+use crate::common::{CONTACT_MODULUS, Pair, elastic, quantities, stored};
 use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, SnapshotRequest};
 use fem_contact::ContactError;
 use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
-use fem_material::{ActsOn, ElasticModuli, Material};
+use fem_material::ActsOn;
 
 /// Masses of glass spheres with the radii (m) of the paper's pair, kg.
 fn masses() -> [f64; 2] {
@@ -168,9 +168,7 @@ fn a_stiff_partner_approaches_the_rigid_one() {
     let model_of =
         |bodies: [BodyInput; 2]| ExplicitBodies::new(bodies, pair.approach(), &settings).unwrap();
     for (ratio, tolerance) in [(30.0, 0.06), (1e4, 0.2)] {
-        let moduli =
-            ElasticModuli::from_youngs_modulus_poissons_ratio(63e9 * ratio, 0.244).unwrap();
-        let material = Material::new(2390.0 * ratio, moduli, None).unwrap();
+        let material = elastic(63e9 * ratio, 0.244, 2390.0 * ratio);
         let BodyInput::Sphere { mesh, .. } = pair.sphere(0) else { panic!("a sphere") };
         let stiff = model_of([BodyInput::Sphere { mesh, material }, pair.sphere(1)]);
         let mass = stiff.bodies()[0].mass();
@@ -197,8 +195,7 @@ fn rigid_partner_has_no_elements_and_keeps_the_wall_time_step() {
     assert_eq!(wall.n_elements(), heavy.n_elements());
     // One part in the ratio of the masses, and less.
     assert!((heavy.time_step() / wall.time_step() - 1.0).abs() < 1e-4);
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e13, 0.244).unwrap();
-    let material = Material::new(2390.0, moduli, None).unwrap();
+    let material = elastic(63e13, 0.244, 2390.0);
     let BodyInput::Sphere { mesh, .. } = pair.sphere(0) else { panic!("a sphere") };
     let meshed = step(BodyInput::Sphere { mesh, material });
     let own = step(bodies_of(&pair, 0, 1.0)[0].clone());

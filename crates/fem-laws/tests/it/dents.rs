@@ -7,44 +7,50 @@ use fem_laws::laws::{
 };
 use fem_laws::{
     EndRule, FirstYield, HertzImpact, Impact, LawContext, LawFamily, LawImpact, LawInput, Pair,
-    PairRelaxation, Partner, YieldingBody, contact_time_coefficient, largest_von_mises,
+    Partner, YieldingBody, contact_time_coefficient, largest_von_mises,
 };
-use fem_material::{ElasticModuli, FlowRule, FlowStress, Hardening, Material, RateFactor};
+use fem_material::{FlowRule, FlowStress, Hardening, RateFactor};
+
+use crate::common::{assert_close, elastic, relaxation_of};
 
 const STRENGTH: f64 = 235e6;
 const NU: f64 = 0.3;
 
+/// A ball of steel.
+fn ball(radius: f64) -> Partner {
+    let mass = fem_laws::sphere_mass(2.0 * radius, 7850.0);
+    Partner::Sphere { radius, mass, plane_strain_modulus: 210e9 / 0.91 }
+}
+
 /// Balls of 10 mm of steel.
 fn pair() -> Pair {
-    let mass = fem_laws::sphere_mass(10e-3, 7850.0);
-    let ball = || Partner::Sphere { radius: 5e-3, mass, plane_strain_modulus: 210e9 / 0.91 };
-    Pair::new(ball(), ball()).unwrap()
+    Pair::new(ball(5e-3), ball(5e-3)).unwrap()
 }
 
 fn impact(law: ContactLaw, speed: f64) -> Impact {
     LawImpact::new(&pair(), law).impact(speed).unwrap()
 }
 
-/// First yield of the pair by von Mises, and Thornton's law for it.
-fn yielding(speed: f64) -> (FirstYield, ContactLaw) {
+/// First yield of a ball of 10 mm by von Mises.
+fn first_yield(pair: &Pair, speed: f64, yield_strength: f64) -> FirstYield {
     let body = YieldingBody {
-        yield_strength: STRENGTH,
+        yield_strength,
         poissons_ratio: NU,
         plane_strain_modulus: 210e9 / 0.91,
         radius: 5e-3,
     };
-    let first = FirstYield::new(&HertzImpact::new(&pair(), speed).unwrap(), body);
+    FirstYield::new(&HertzImpact::new(pair, speed).unwrap(), body)
+}
+
+/// First yield of the pair by von Mises, and Thornton's law for it.
+fn yielding(speed: f64) -> (FirstYield, ContactLaw) {
+    let first = first_yield(&pair(), speed, STRENGTH);
     (first, thornton(&pair(), STRENGTH / largest_von_mises(NU)).unwrap())
 }
 
 /// The approach at the end: the dent.
 fn dent(impact: &Impact) -> f64 {
     impact.history.last().unwrap().approach
-}
-
-#[track_caller]
-fn assert_close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found / expected - 1.0).abs() < tolerance, "{found:e} {expected:e}");
 }
 
 /// Thornton (1997), eq. 39, and 1.185 (v_Y/v)^(1/4) far beyond first yield.
@@ -308,12 +314,6 @@ fn values_out_of_range_are_rejected() {
 /// of 10 mm and one of 20 mm. LAMMPS' spheres grow, which is worth 9e-4 at 10 m/s.
 #[test]
 fn mdr_has_the_restitutions_of_lammps() {
-    let density = 7850.0;
-    let ball = |radius: f64| Partner::Sphere {
-        radius,
-        mass: fem_laws::sphere_mass(2.0 * radius, density),
-        plane_strain_modulus: 210e9 / 0.91,
-    };
     let small = || ball(5e-3);
     let pairs = [
         (Pair::new(small(), Partner::Wall).unwrap(), 0.0, [(1.0, 0.83876), (10.0, 0.44227)]),
@@ -321,23 +321,19 @@ fn mdr_has_the_restitutions_of_lammps() {
         (Pair::new(small(), ball(10e-3)).unwrap(), 0.5, [(1.0, 0.91093), (10.0, 0.56683)]),
     ];
     for (pair, ratio, expected) in pairs {
+        let of = |strength, speed| {
+            LawImpact::new(&pair, mdr(&pair, strength, NU, ratio).unwrap()).impact(speed)
+        };
         for (speed, restitution) in expected {
-            let law = mdr(&pair, 1e9, NU, ratio).unwrap();
-            let found = LawImpact::new(&pair, law).impact(speed).unwrap();
-            assert_close(found.restitution, restitution, 1e-3);
+            assert_close(of(1e9, speed).unwrap().restitution, restitution, 1e-3);
         }
         // Any strength ends in an answer.
         for strength in [1e-30, 1.0, 1e6, 1e30] {
-            let found =
-                LawImpact::new(&pair, mdr(&pair, strength, NU, ratio).unwrap()).impact(10.0);
-            assert!(
-                found.is_ok_and(|found| (0.0..=1.0).contains(&found.restitution)),
-                "{strength}"
-            );
+            let e = of(strength, 10.0).unwrap().restitution;
+            assert!((0.0..=1.0).contains(&e), "{strength}");
         }
         // Nothing is lost before first yield.
-        let slow = LawImpact::new(&pair, mdr(&pair, 1e9, NU, ratio).unwrap()).impact(0.1).unwrap();
-        assert_close(slow.restitution, 1.0, 1e-9);
+        assert_close(of(1e9, 0.1).unwrap().restitution, 1.0, 1e-9);
     }
 }
 
@@ -345,32 +341,29 @@ fn mdr_has_the_restitutions_of_lammps() {
 /// on a block of aluminium, in either order, and whether or not the case has a strength of the aluminium.
 #[test]
 fn a_given_strength_is_that_of_the_body_that_yields() {
-    let moduli = |modulus, nu| ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, nu);
-    let hard = Material::new(3900.0, moduli(380e9, 0.22).unwrap(), None).unwrap();
-    let soft = Material::new(2700.0, moduli(70e9, 0.33).unwrap(), None).unwrap();
+    let hard = elastic([380e9, 0.22, 3900.0]);
+    let soft = elastic([70e9, 0.33, 2700.0]);
     let linear = Hardening::Linear { yield_strength: 300e6, modulus: 800e6 };
     let flowing = soft.clone().with_flow(FlowRule::new(linear, None).unwrap()).unwrap();
     let given = |family| LawInput { family, values: vec![("yield_strength", 286e6)] };
     for (metal, own, slope) in
         [(&soft, Some(300e6), 0.0), (&soft, None, 0.0), (&flowing, Some(300e6), 800e6)]
     {
-        let block = Partner::HalfSpace {
-            plane_strain_modulus: metal.instantaneous().plane_strain_modulus(),
-        };
+        let block = Partner::half_space(metal);
         let pair = Pair::new(block, Partner::solid_sphere(5e-3, &hard)).unwrap();
-        let relaxation = PairRelaxation::new(Some(metal), Some(&hard)).unwrap();
+        let relaxation = relaxation_of([metal, &hard]);
         let nu_of_metal = metal.instantaneous().poissons_ratio();
         for swapped in [false, true] {
+            let mut bodies = [(metal, own, f64::INFINITY), (&hard, None, 2.5e-3)];
+            if swapped {
+                bodies.reverse();
+            }
             let context = LawContext {
                 pair,
                 approach_speed: 2.0,
-                materials: if swapped {
-                    [Some(&hard), Some(metal)]
-                } else {
-                    [Some(metal), Some(&hard)]
-                },
-                yield_strengths: if swapped { [None, own] } else { [own, None] },
-                radii: if swapped { [2.5e-3, f64::INFINITY] } else { [f64::INFINITY, 2.5e-3] },
+                materials: bodies.map(|(material, ..)| Some(material)),
+                yield_strengths: bodies.map(|(_, strength, _)| strength),
+                radii: bodies.map(|(.., radius)| radius),
                 relaxation: &relaxation,
                 end_rule: EndRule::ZeroForce,
             };
@@ -398,16 +391,7 @@ fn a_given_strength_is_that_of_the_body_that_yields() {
 /// Y = 1 GPa and C = 0.02 on a wall at 1 m/s. They rise less than a strength at the mean rate would make them, which is 0.034.
 #[test]
 fn the_rate_before_the_turn_counts() {
-    let mass = fem_laws::sphere_mass(10e-3, 7850.0);
-    let ball = Partner::Sphere { radius: 5e-3, mass, plane_strain_modulus: 210e9 / 0.91 };
-    let hertz = HertzImpact::new(&Pair::new(ball, Partner::Wall).unwrap(), 1.0).unwrap();
-    let body = YieldingBody {
-        yield_strength: 1e9,
-        poissons_ratio: NU,
-        plane_strain_modulus: 210e9 / 0.91,
-        radius: 5e-3,
-    };
-    let first = FirstYield::new(&hertz, body);
+    let first = first_yield(&Pair::new(ball(5e-3), Partner::Wall).unwrap(), 1.0, 1e9);
     let of = |reference_rate: f64| {
         let linear = Hardening::Linear { yield_strength: 1e9, modulus: 0.0 };
         let rate = RateFactor { coefficient: 0.02, reference_rate };

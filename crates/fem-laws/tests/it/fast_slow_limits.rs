@@ -1,25 +1,20 @@
 //! Prony terms that relax much faster or slower than the contact: Ting's model with and without them.
 
 use fem_laws::{
-    FastSlowLimits, HertzImpact, Impact, ImpactDifference, LawError, Pair, PairRelaxation, Partner,
-    RelativeError, Ting,
+    FastSlowLimits, HertzImpact, Impact, ImpactDifference, LawError, Pair, Partner, RelativeError,
+    Ting,
 };
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material, PronyTerm};
+
+use crate::common::{self, GLASS, relaxation_of, relaxing, steel};
 
 const SPEED: f64 = 0.5;
 
 /// `terms` of weight and T/τ at the contact time.
 fn glass(terms: &[(f64, f64)], acts_on: ActsOn) -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-    let time = hertz([&Material::new(2390.0, moduli, None).unwrap(); 2]).contact_time();
-    let term = |&(weight, ratio): &(f64, f64)| PronyTerm { weight, relaxation_time: time / ratio };
-    let series = PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap();
-    Material::new(2390.0, moduli, Some(series)).unwrap()
-}
-
-fn steel() -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(210e9, 0.3).unwrap();
-    Material::new(7800.0, moduli, None).unwrap()
+    let time = hertz([&common::glass(); 2]).contact_time();
+    let terms: Vec<_> = terms.iter().map(|(weight, ratio)| (*weight, time / ratio)).collect();
+    relaxing(GLASS, acts_on, &terms)
 }
 
 fn pair(materials: [&Material; 2]) -> Pair {
@@ -32,8 +27,7 @@ fn hertz(materials: [&Material; 2]) -> HertzImpact {
 }
 
 fn ting(materials: [&Material; 2]) -> Impact {
-    let relaxation = PairRelaxation::new(Some(materials[0]), Some(materials[1])).unwrap();
-    Ting::new(&pair(materials), relaxation).impact(SPEED).unwrap()
+    Ting::new(&pair(materials), relaxation_of(materials)).impact(SPEED).unwrap()
 }
 
 fn of_each(tolerance: f64) -> RelativeError {

@@ -3,16 +3,14 @@
 use crate::direct::{Direct, direct};
 use fem_laws::laws::{hertz, linear};
 use fem_laws::{EndRule, HertzImpact, ImpactPath, LawImpact, Pair, PairRelaxation, Partner, Ting};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material};
+
+use crate::common::relaxing;
 
 const G: f64 = 9.81;
 
 fn rubber(terms: &[(f64, f64)]) -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2e6, 0.4).unwrap();
-    let term = |&(weight, relaxation_time): &(f64, f64)| PronyTerm { weight, relaxation_time };
-    let series = (!terms.is_empty())
-        .then(|| PronySeries::new(terms.iter().map(term).collect(), ActsOn::All).unwrap());
-    Material::new(1100.0, moduli, series).unwrap()
+    relaxing([2e6, 0.4, 1100.0], ActsOn::All, terms)
 }
 
 fn pair_of(material: &Material) -> Pair {

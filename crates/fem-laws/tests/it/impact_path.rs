@@ -7,30 +7,20 @@
 )]
 
 use fem_laws::laws::{self, ContactLaw};
-use fem_laws::{
-    FiniteSize, HertzImpact, Impact, ImpactPath, LawImpact, Pair, PairRelaxation, Partner, Ting,
-};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_laws::{FiniteSize, HertzImpact, Impact, ImpactPath, LawImpact, Ting};
+use fem_material::{ActsOn, Material};
+
+use crate::common::{GLASS, decaying, glass_pair as pair, relaxation_of};
 
 const SPEED: f64 = 0.5;
 
 fn glass(terms: &[(f64, f64)]) -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-    let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
-    let series = (!terms.is_empty())
-        .then(|| PronySeries::new(terms.iter().map(term).collect(), ActsOn::All).unwrap());
-    Material::new(2390.0, moduli, series).unwrap()
-}
-
-fn pair() -> Pair {
-    let of = |diameter| Partner::solid_sphere(diameter, &glass(&[]));
-    Pair::new(of(22.2e-3), of(15.9e-3)).unwrap()
+    decaying(GLASS, ActsOn::All, terms)
 }
 
 fn ting(terms: &[(f64, f64)], is_finite: bool) -> Impact {
     let material = glass(terms);
-    let relaxation = PairRelaxation::new(Some(&material), Some(&material)).unwrap();
-    let ting = Ting::new(&pair(), relaxation);
+    let ting = Ting::new(&pair(), relaxation_of([&material; 2]));
     let sizes = || FiniteSize::new(Some((11.1e-3, &material)), Some((7.95e-3, &material)));
     let ting = if is_finite { ting.with_finite_size(sizes().unwrap()) } else { ting };
     ting.impact(SPEED).unwrap()

@@ -8,20 +8,13 @@
 
 use fem_laws::laws::{corrected_dissipation_time, kuwabara_kono, tsuji, zhang_whiten_coefficient};
 use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, ElasticModuli, Material};
 
-fn material(moduli: ElasticModuli, acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
-    let term = |&(weight, relaxation_time): &(f64, f64)| PronyTerm { weight, relaxation_time };
-    let series = PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap();
-    Material::new(2390.0, moduli, Some(series)).unwrap()
-}
+use crate::common::{GLASS, assert_close, glass, moduli, pair_of, relaxation_of, relaxing};
 
-fn moduli(youngs_modulus: f64, poissons_ratio: f64) -> ElasticModuli {
-    ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, poissons_ratio).unwrap()
-}
-
-fn assert_close(found: f64, expected: f64, relative: f64) {
-    assert!((found / expected - 1.0).abs() < relative, "{found} is not {expected}");
+/// The larger glass sphere on a wall.
+fn on_wall() -> Pair {
+    Pair::new(Partner::solid_sphere(22.2e-3, &glass()), Partner::Wall).unwrap()
 }
 
 /// η = Σ G_k τ_k of the series put into the closed form of the viscosities, at relaxed moduli,
@@ -34,7 +27,7 @@ fn the_closed_form_of_viscosities_is_the_slow_limit_of_a_series() {
         let instantaneous = moduli(63e9, nu);
         let (shear, bulk) = (instantaneous.shear_modulus(), instantaneous.bulk_modulus());
         for acts_on in [ActsOn::All, ActsOn::Shear] {
-            let body = material(instantaneous, acts_on, &terms);
+            let body = relaxing([63e9, nu, 2390.0], acts_on, &terms);
             let (left_of_bulk, bulk_viscosity) = match acts_on {
                 ActsOn::All => (0.5 * bulk, bulk * moment),
                 ActsOn::Shear => (bulk, 0.0),
@@ -45,22 +38,14 @@ fn the_closed_form_of_viscosities_is_the_slow_limit_of_a_series() {
                 shear * moment,
                 bulk_viscosity,
             );
-            let found = PairRelaxation::new(Some(&body), Some(&body)).unwrap();
-            assert_close(found.dissipation_time().unwrap(), expected.unwrap(), 1e-12);
+            let of = |relaxation: PairRelaxation| relaxation.dissipation_time().unwrap();
+            let found = of(relaxation_of([&body; 2]));
+            assert_close(found, expected.unwrap(), 1e-12);
             // A rigid wall adds nothing, an elastic body dilutes.
             let on_wall = PairRelaxation::new(None, Some(&body)).unwrap();
-            assert_close(
-                on_wall.dissipation_time().unwrap(),
-                found.dissipation_time().unwrap(),
-                1e-12,
-            );
+            assert_close(of(on_wall), found, 1e-12);
             let elastic = Material::new(2390.0, relaxed, None).unwrap();
-            let diluted = PairRelaxation::new(Some(&elastic), Some(&body)).unwrap();
-            assert_close(
-                diluted.dissipation_time().unwrap(),
-                0.5 * found.dissipation_time().unwrap(),
-                1e-12,
-            );
+            assert_close(of(relaxation_of([&elastic, &body])), 0.5 * found, 1e-12);
         }
     }
 }
@@ -87,28 +72,16 @@ fn the_corrected_form_keeps_its_loss_where_nothing_is_compressed() {
 /// loss, of first order in τ/T, has an error of second order.
 #[test]
 fn kelvins_law_is_the_slow_limit_of_ting() {
-    let instantaneous = moduli(63e9, 0.244);
     let loss_ratio = |time: f64| {
-        let body = material(instantaneous, ActsOn::All, &[(0.5, time)]);
-        let partner = |diameter| Partner::solid_sphere(diameter, &body);
-        let pair = Pair::new(partner(22.2e-3), partner(15.9e-3)).unwrap();
-        let relaxation = PairRelaxation::new(Some(&body), Some(&body)).unwrap();
+        let body = relaxing(GLASS, ActsOn::All, &[(0.5, time)]);
+        let (pair, relaxation) = (pair_of(&body), relaxation_of([&body; 2]));
         let slow = pair.with_modulus_share(relaxation.equilibrium_weight()).unwrap();
         let law = kuwabara_kono(&slow, relaxation.dissipation_time().unwrap()).unwrap();
         let kelvin = LawImpact::new(&slow, law).impact(0.5).unwrap();
         let ting = Ting::new(&pair, relaxation).impact(0.5).unwrap();
         (1.0 - kelvin.restitution) / (1.0 - ting.restitution) - 1.0
     };
-    let contact_time = HertzImpact::new(
-        &Pair::new(
-            Partner::solid_sphere(22.2e-3, &material(instantaneous, ActsOn::All, &[(0.5, 1.0)])),
-            Partner::Wall,
-        )
-        .unwrap(),
-        0.5,
-    )
-    .unwrap()
-    .contact_time();
+    let contact_time = HertzImpact::new(&on_wall(), 0.5).unwrap().contact_time();
     let (coarse, fine) = (loss_ratio(4e-3 * contact_time), loss_ratio(1e-3 * contact_time));
     println!("{coarse:e} {fine:e}");
     assert!(fine.abs() < 0.02, "{fine}");
@@ -117,8 +90,7 @@ fn kelvins_law_is_the_slow_limit_of_ting() {
 
 #[test]
 fn zhang_and_whiten_give_the_restitution_asked_for_at_zero_force() {
-    let glass = Material::new(2390.0, moduli(63e9, 0.244), None).unwrap();
-    let pair = Pair::new(Partner::solid_sphere(22.2e-3, &glass), Partner::Wall).unwrap();
+    let pair = on_wall();
     for e in [1.0, 0.92, 0.5, 0.1] {
         for speed in [1e-3, 10.0] {
             let law = tsuji(&pair, zhang_whiten_coefficient(e).unwrap()).unwrap();

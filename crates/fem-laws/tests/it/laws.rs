@@ -8,9 +8,8 @@ use fem_laws::laws::{
     tsuji, tsuji_coefficient,
 };
 use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, Partner};
-use fem_material::ElasticModuli;
 
-use crate::common::{assert_close, glass, glass_pair};
+use crate::common::{assert_close, glass, glass_pair, moduli};
 
 fn impact(law: ContactLaw, speed: f64) -> Impact {
     LawImpact::new(&glass_pair(), law).impact(speed).unwrap()
@@ -253,10 +252,9 @@ fn equivalent_named_laws_have_the_same_coefficients() {
 /// A of Brilliantov et al. for ν = 1/4, η₂ = 2η₁: (25/24) (15/2) η₁/E.
 #[test]
 fn dissipation_time_of_viscosities() {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(1e9, 0.25).unwrap();
     let expected = 25.0 / 24.0 * 7.5 * 1e3 / 1e9;
-    assert_close(dissipation_time(&moduli, 1e3, 2e3).unwrap(), expected, 1e-14);
-    let cork = ElasticModuli::from_youngs_modulus_poissons_ratio(1e9, 0.0).unwrap();
+    assert_close(dissipation_time(&moduli(1e9, 0.25), 1e3, 2e3).unwrap(), expected, 1e-14);
+    let cork = moduli(1e9, 0.0);
     assert!(dissipation_time(&cork, 1e3, 2e3).is_err());
 }
 

@@ -1,20 +1,16 @@
 //! Errors by neglected effects, against the collision with and without, and published spreads.
 
 use fem_laws::{HertzImpact, Pair, Partner, RelativeError, rigid_partner};
-use fem_material::{ElasticModuli, Material};
 
-fn material(youngs_modulus: f64, poissons_ratio: f64, density: f64) -> Material {
-    let moduli =
-        ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, poissons_ratio).unwrap();
-    Material::new(density, moduli, None).unwrap()
-}
+use crate::common::{elastic, steel};
+
+const RUBBER: [f64; 3] = [5e6, 0.49, 1100.0];
 
 /// Rubber ball of 22 mm on steel: the two collisions themselves.
 #[test]
 fn a_rigid_partner_is_a_wall_or_a_rigid_sphere() {
-    let (rubber, steel) = (material(5e6, 0.49, 1100.0), material(210e9, 0.3, 7800.0));
-    let ball = Partner::solid_sphere(22e-3, &rubber);
-    for stiff in [material(50e6, 0.4, 1100.0), steel] {
+    let ball = Partner::solid_sphere(22e-3, &elastic(RUBBER));
+    for stiff in [elastic([50e6, 0.4, 1100.0]), steel()] {
         let sphere = Partner::solid_sphere(30e-3, &stiff);
         let Partner::Sphere { radius, mass, .. } = sphere else { panic!("a sphere") };
         let rigid = Partner::Sphere { radius, mass, plane_strain_modulus: f64::INFINITY };
@@ -36,7 +32,7 @@ fn a_rigid_partner_is_a_wall_or_a_rigid_sphere() {
 
 #[test]
 fn the_only_body_that_deforms_cannot_be_rigid() {
-    let ball = Partner::solid_sphere(22e-3, &material(5e6, 0.49, 1100.0));
+    let ball = Partner::solid_sphere(22e-3, &elastic(RUBBER));
     let pair = Pair::new(ball, Partner::Wall).unwrap();
     assert_eq!(rigid_partner(&pair, &ball), None);
     assert_eq!(rigid_partner(&pair, &Partner::Wall), Some(RelativeError::default()));

@@ -3,7 +3,8 @@
 use fem_laws::{
     LawError, Pair, Partner, compliance_shares, restitution_of_mass_centres, sphere_mass,
 };
-use fem_material::{ElasticModuli, Material};
+
+use crate::common::{elastic, glass, glass_pair};
 
 fn sphere(radius: f64, mass: f64, plane_strain_modulus: f64) -> Partner {
     Partner::Sphere { radius, mass, plane_strain_modulus }
@@ -12,14 +13,11 @@ fn sphere(radius: f64, mass: f64, plane_strain_modulus: f64) -> Partner {
 /// Reference numbers of the glass pair, to their printed digits.
 #[test]
 fn effective_values_of_the_glass_pair() {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-    let glass = Material::new(2390.0, moduli, None).unwrap();
-    let large = Partner::solid_sphere(22.2e-3, &glass);
-    let small = Partner::solid_sphere(15.9e-3, &glass);
-    let pair = Pair::new(large, small).unwrap();
+    let pair = glass_pair();
     assert!((pair.effective_mass() - 3.6787e-3).abs() < 0.5e-7);
     assert!((pair.effective_radius() - 4.6323e-3).abs() < 0.5e-7);
     assert!((pair.contact_modulus() - 33.494e9).abs() < 0.5e6);
+    let [small, large] = [15.9e-3, 22.2e-3].map(|d| Partner::solid_sphere(d, &glass()));
     assert_eq!(Pair::new(small, large).unwrap(), pair);
 }
 
@@ -89,8 +87,7 @@ fn unlike_bodies_add_their_reciprocals() {
 #[test]
 fn half_space_of_a_material_has_its_modulus() {
     // E/(1 − ν²) = 63/0.75 at ν = 1/2; the nearest that is stable is 1e-9 off.
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.499_999_999).unwrap();
-    let glass = Material::new(2390.0, moduli, None).unwrap();
+    let glass = elastic([63e9, 0.499_999_999, 2390.0]);
     let Partner::HalfSpace { plane_strain_modulus } = Partner::half_space(&glass) else { panic!() };
     assert!((plane_strain_modulus / 84e9 - 1.0).abs() < 1e-8);
 }

@@ -1,25 +1,16 @@
 //! E*(t) of a pair: limits, known series, the rational identity in s, Laplace inversion.
 
 use fem_laws::{LawError, PairRelaxation};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material};
 
-fn material(
-    youngs_modulus: f64,
-    poissons_ratio: f64,
-    acts_on: ActsOn,
-    terms: &[(f64, f64)],
-) -> Material {
-    let moduli =
-        ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, poissons_ratio).unwrap();
-    let term = |&(weight, relaxation_time)| PronyTerm { weight, relaxation_time };
-    let series = PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap();
-    Material::new(1000.0, moduli, Some(series)).unwrap()
+use crate::common::{self, carson, relaxing};
+
+fn material(modulus: f64, nu: f64, acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
+    relaxing([modulus, nu, 1000.0], acts_on, terms)
 }
 
-fn elastic(youngs_modulus: f64, poissons_ratio: f64) -> Material {
-    let moduli =
-        ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, poissons_ratio).unwrap();
-    Material::new(1000.0, moduli, None).unwrap()
+fn elastic(modulus: f64, nu: f64) -> Material {
+    common::elastic([modulus, nu, 1000.0])
 }
 
 /// Ten decades, a weight of 0, a tiny one, two equal and two nearly equal times.
@@ -60,13 +51,9 @@ fn pairs() -> Vec<(Option<Material>, Option<Material>)> {
 /// s-multiplied Laplace transform of a body's contact compliance, from the elastic formula.
 fn body_compliance(material: Option<&Material>, s: f64) -> f64 {
     let Some(material) = material else { return 0.0 };
-    let fraction = material.relaxation().map_or(1.0, |series| {
-        let decaying = series.terms().iter().map(|term| {
-            let st = s * term.relaxation_time;
-            term.weight * st / (1.0 + st)
-        });
-        series.equilibrium_weight() + decaying.sum::<f64>()
-    });
+    let series = material.relaxation();
+    let fraction =
+        series.map_or(1.0, |series| carson(series.equilibrium_weight(), series.terms(), s));
     let moduli = material.instantaneous();
     let shear = moduli.shear_modulus() * fraction;
     let all = material.relaxation().is_some_and(|series| series.acts_on() == ActsOn::All);
@@ -95,11 +82,7 @@ fn series_is_the_rational_function_in_s() {
         let found = relaxation(&pair);
         for i in 0..400 {
             let s = 10f64.powf(-12.0 + 24.0 * f64::from(i) / 399.0);
-            let decaying = found.terms().iter().map(|term| {
-                let st = s * term.relaxation_time;
-                term.weight * st / (1.0 + st)
-            });
-            let carson = found.equilibrium_weight() + decaying.sum::<f64>();
+            let carson = carson(found.equilibrium_weight(), found.terms(), s);
             let deviation = carson / exact_carson(&pair, s) - 1.0;
             assert!(deviation.abs() < NEAR_TIMES, "s {s:e}: {deviation:e}");
         }

@@ -1,21 +1,16 @@
 //! Impact on a thin plate: Zener's equation by every model, energy, gravity, and the figures of a steel ball.
 
-use fem_laws::laws::{hertz, linear, mean_pressure, thornton};
+use fem_laws::laws::{ContactLaw, hertz, linear, mean_pressure, thornton};
 use fem_laws::{
     FiniteSize, FirstYield, FreePlate, HertzImpact, Impact, ImpactPath, LawError, LawImpact, Pair,
     PairRelaxation, Partner, Ting, YieldingBody, largest_von_mises, plate_lambda, plate_mobility,
     plate_thickness_error, plate_thickness_factor, plate_wave_travel,
 };
-use fem_material::{ActsOn, ElasticModuli, FlowStress, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, FlowStress, Material};
 
-use crate::common::assert_close;
+use crate::common::{self, STEEL, assert_close, relaxation_of, steel};
 
 const SPEED: f64 = 1.0;
-
-fn steel() -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(210e9, 0.3).unwrap();
-    Material::new(7800.0, moduli, None).unwrap()
-}
 
 /// A steel ball of 10 mm on steel.
 fn pair() -> Pair {
@@ -23,12 +18,30 @@ fn pair() -> Pair {
 }
 
 fn elastic() -> PairRelaxation {
-    PairRelaxation::new(Some(&steel()), Some(&steel())).unwrap()
+    relaxation_of([&steel(), &steel()])
 }
 
 /// Returns the mobility for a λ of the pair at [`SPEED`].
 fn mobility(lambda: f64) -> f64 {
     lambda / plate_lambda(&HertzImpact::new(&pair(), SPEED).unwrap(), 1.0)
+}
+
+/// Returns Ting's model and a law of the pair on a plate of this mobility.
+fn ting_on_plate(pair: &Pair, relaxation: PairRelaxation, mobility: f64) -> Ting {
+    Ting::new(pair, relaxation).with_plate(mobility).unwrap()
+}
+
+fn law_on_plate(law: ContactLaw, mobility: f64) -> LawImpact {
+    LawImpact::new(&pair(), law).with_plate(mobility).unwrap()
+}
+
+/// Returns the elastic impacts of every model: Ting's, Hertz' law and one that never dents.
+fn elastic_impacts(lambda: f64) -> [(&'static str, Impact); 3] {
+    let (pair, mobility) = (pair(), mobility(lambda));
+    let law = |law| law_on_plate(law, mobility).impact(SPEED).unwrap();
+    let ting = ting_on_plate(&pair, elastic(), mobility).impact(SPEED).unwrap();
+    let never = thornton(&pair, 1e14).unwrap();
+    [("ting", ting), ("law", law(hertz(&pair).unwrap())), ("dent", law(never))]
 }
 
 /// Returns e, T/T₀ and F/F₀ of Zener's ü + (1 + λ d/dt) u^(3/2) = 0 by the classical Runge–Kutta method, for u and
@@ -72,17 +85,10 @@ fn ratios(impact: &Impact) -> [f64; 3] {
 /// Every model of an elastic contact solves Zener's equation, to five digits. The largest λ leaves e = 2e-3.
 #[test]
 fn elastic_models_on_a_plate_equal_zeners_equation() {
-    let never = 1e14;
     for lambda in [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
-        let (pair, mobility) = (pair(), mobility(lambda));
-        let law = |law| LawImpact::new(&pair, law).with_plate(mobility).unwrap();
         let expected = zener(lambda);
-        for (name, impact) in [
-            ("ting", Ting::new(&pair, elastic()).with_plate(mobility).unwrap().impact(SPEED)),
-            ("law", law(hertz(&pair).unwrap()).impact(SPEED)),
-            ("dent", law(thornton(&pair, never).unwrap()).impact(SPEED)),
-        ] {
-            let found = ratios(&impact.unwrap());
+        for (name, impact) in elastic_impacts(lambda) {
+            let found = ratios(&impact);
             for k in 0..3 {
                 let error = (found[k] - expected[k]).abs();
                 assert!(error < 5e-6, "{name} {lambda} {k}: {} {}", found[k], expected[k]);
@@ -106,7 +112,7 @@ fn a_stiff_plate_takes_the_share_of_a_weak_dashpot() {
     let limit: f64 = (0..n).map(of_cell).sum();
     assert_close(limit, 1.7301, 1e-4);
     let rate = |lambda: f64| {
-        let ting = Ting::new(&pair(), elastic()).with_plate(mobility(lambda)).unwrap();
+        let ting = ting_on_plate(&pair(), elastic(), mobility(lambda));
         -ting.impact(SPEED).unwrap().restitution.ln() / lambda
     };
     // Linear in λ; five digits of e leave 2e-4 of the rate at 0.05.
@@ -119,38 +125,31 @@ fn a_stiff_plate_takes_the_share_of_a_weak_dashpot() {
 /// whole motion, whose restitution falls as 0.6793 λ⁻⁵ (an integration by SciPy's LSODA at 1e-11, λ from 3.3 to 20).
 #[test]
 fn a_ball_sinks_in_with_a_foil() {
-    let impacts = |lambda: f64| {
-        let (pair, mobility) = (pair(), mobility(lambda));
-        let law = |law| LawImpact::new(&pair, law).with_plate(mobility).unwrap().impact(SPEED);
-        let ting = Ting::new(&pair, elastic()).with_plate(mobility).unwrap().impact(SPEED);
-        let dent = thornton(&pair, 1e14).unwrap();
-        [ting, law(hertz(&pair).unwrap()), law(dent)].map(Result::unwrap)
-    };
     let sunk = |lambda: f64| mobility(lambda) * pair().effective_mass() * SPEED;
     for lambda in [40.1, 120.0, 1e4] {
-        for impact in impacts(lambda) {
+        for (_, impact) in elastic_impacts(lambda) {
             assert_eq!((impact.restitution, impact.contact_time), (0.0, None), "{lambda}");
             assert_close(impact.max_approach, sunk(lambda), 1e-12);
         }
     }
     // Here the contact grows without a turn, since the ball relaxes.
     let (relaxing_pair, relaxation) = relaxing();
-    let creeping = Ting::new(&relaxing_pair, relaxation).with_plate(mobility(120.0)).unwrap();
+    let creeping = ting_on_plate(&relaxing_pair, relaxation, mobility(120.0));
     let impact = creeping.impact(SPEED).unwrap();
     assert_eq!((impact.restitution, impact.contact_time), (0.0, None));
     assert_close(impact.max_approach, sunk(120.0), 1e-12);
     for (name, k) in [("ting", 0), ("law", 1), ("dent", 2)] {
         let asymptote = |lambda: f64| 0.6793 * lambda.powi(-5);
-        assert_close(impacts(9.0)[k].restitution, asymptote(9.0), 1e-3);
+        let at = |lambda: f64| elastic_impacts(lambda)[k].1.clone();
+        assert_close(at(9.0).restitution, asymptote(9.0), 1e-3);
         let limit = if name == "dent" { 10.0 } else { 40.0 };
-        let [below, above] =
-            [0.999 * limit, 1.001 * limit].map(|lambda| impacts(lambda)[k].clone());
+        let [below, above] = [0.999 * limit, 1.001 * limit].map(at);
         assert!(below.restitution < 1.01 * asymptote(0.999 * limit), "{name}");
         // λ differs by 2e-3.
         assert_close(above.peak_force, below.peak_force, 2.5e-3);
         assert_close(above.max_contact_radius, below.max_contact_radius, 2.5e-3);
         assert_close(above.max_approach, below.max_approach, 1e-2);
-        let [one, other] = [1e3, 1e4].map(|lambda| impacts(lambda)[k].peak_force * lambda);
+        let [one, other] = [1e3, 1e4].map(|lambda| at(lambda).peak_force * lambda);
         assert_close(one, other, 2e-2);
     }
 }
@@ -160,17 +159,15 @@ fn a_ball_sinks_in_with_a_foil() {
 fn a_steel_ball_loses_more_on_a_thinner_plate() {
     for (thickness, expected) in [(20e-3, 0.98), (10e-3, 0.94), (5e-3, 0.77), (2e-3, 0.19)] {
         let mobility = plate_mobility(&steel(), thickness);
-        let ting = Ting::new(&pair(), elastic()).with_plate(mobility).unwrap();
+        let ting = ting_on_plate(&pair(), elastic(), mobility);
         let found = ting.impact(SPEED).unwrap().restitution;
         assert!((found - expected).abs() < 6e-3, "{thickness}: {found}");
     }
 }
 
 fn relaxing() -> (Pair, PairRelaxation) {
-    let terms = vec![PronyTerm { weight: 0.3, relaxation_time: 2e-5 }];
-    let series = PronySeries::new(terms, ActsOn::All).unwrap();
-    let ball = Material::new(7800.0, *steel().instantaneous(), Some(series)).unwrap();
-    (pair(), PairRelaxation::new(Some(&ball), Some(&steel())).unwrap())
+    let ball = common::relaxing(STEEL, ActsOn::All, &[(0.3, 2e-5)]);
+    (pair(), relaxation_of([&ball, &steel()]))
 }
 
 /// Work of the motion = what contact, material and plate have, from ∫F dδ and the state; and the impulse is the change of
@@ -180,29 +177,15 @@ fn the_energy_is_accounted_for() {
     let (relaxing_pair, relaxation) = relaxing();
     for lambda in [0.05, 0.7] {
         let mobility = mobility(lambda);
-        let law = |law| LawImpact::new(&pair(), law).with_plate(mobility).unwrap();
-        let rough = 1e-6;
-        for (name, impact, tolerance) in [
-            (
-                "elastic",
-                Ting::new(&pair(), elastic()).with_plate(mobility).unwrap().impact(SPEED),
-                rough,
-            ),
-            (
-                "relaxing",
-                Ting::new(&relaxing_pair, relaxation.clone())
-                    .with_plate(mobility)
-                    .unwrap()
-                    .impact(SPEED),
-                rough,
-            ),
-            ("linear", law(linear(1e7, 50.0).unwrap()).impact(SPEED), rough),
-            (
-                "dent",
-                law(mean_pressure(&pair(), FlowStress::perfect(1e9), 0.3, [1.0, 0.5]).unwrap())
-                    .impact(SPEED),
-                rough,
-            ),
+        let ting = |pair, relaxation| ting_on_plate(pair, relaxation, mobility).impact(SPEED);
+        let law = |law| law_on_plate(law, mobility).impact(SPEED);
+        let dent = mean_pressure(&pair(), FlowStress::perfect(1e9), 0.3, [1.0, 0.5]).unwrap();
+        let tolerance = 1e-6;
+        for (name, impact) in [
+            ("elastic", ting(&pair(), elastic())),
+            ("relaxing", ting(&relaxing_pair, relaxation.clone())),
+            ("linear", law(linear(1e7, 50.0).unwrap())),
+            ("dent", law(dent)),
         ] {
             let impact = impact.unwrap();
             let end = impact.history.last().unwrap();
@@ -233,8 +216,8 @@ fn plate_and_relaxation_lose_together() {
     let relaxing = |ting: Ting| ting.impact(SPEED).unwrap().restitution;
     let alone = relaxing(Ting::new(&pair, relaxation.clone()));
     let mobility = mobility(0.1);
-    let plate = relaxing(Ting::new(&pair, elastic()).with_plate(mobility).unwrap());
-    let both = relaxing(Ting::new(&pair, relaxation).with_plate(mobility).unwrap());
+    let plate = relaxing(ting_on_plate(&pair, elastic(), mobility));
+    let both = relaxing(ting_on_plate(&pair, relaxation, mobility));
     assert!(both < alone.min(plate) - 0.05, "{both} {alone} {plate}");
     // The losses are almost independent.
     assert_close(both, alone * plate, 0.02);
@@ -244,8 +227,7 @@ fn plate_and_relaxation_lose_together() {
 #[test]
 fn a_heavy_plate_is_a_half_space() {
     let plain = Ting::new(&pair(), elastic()).impact(SPEED).unwrap();
-    let heavy = Ting::new(&pair(), elastic()).with_plate(mobility(1e-9)).unwrap();
-    let heavy = heavy.impact(SPEED).unwrap();
+    let heavy = ting_on_plate(&pair(), elastic(), mobility(1e-9)).impact(SPEED).unwrap();
     assert_close(heavy.restitution, plain.restitution, 1e-8);
     assert_close(heavy.contact_time.unwrap(), plain.contact_time.unwrap(), 1e-8);
     assert_close(heavy.peak_force, plain.peak_force, 1e-8);
@@ -254,11 +236,11 @@ fn a_heavy_plate_is_a_half_space() {
 #[test]
 fn a_ball_that_falls_on_a_plate_leaves_it_or_stays() {
     let g = 9.81;
-    let fast = Ting::new(&pair(), elastic()).with_plate(mobility(0.2)).unwrap();
+    let fast = ting_on_plate(&pair(), elastic(), mobility(0.2));
     let without = fast.impact(SPEED).unwrap();
     let with = fast.clone().with_gravity(g).unwrap().impact(SPEED).unwrap();
     assert_close(with.restitution, without.restitution, 1e-3);
-    let law = LawImpact::new(&pair(), hertz(&pair()).unwrap()).with_plate(mobility(0.2)).unwrap();
+    let law = law_on_plate(hertz(&pair()).unwrap(), mobility(0.2));
     let law = law.with_gravity(g).unwrap().impact(SPEED).unwrap();
     assert_close(law.restitution, with.restitution, 1e-6);
     let slow = fast.with_gravity(g).unwrap().impact(1e-4).unwrap();
@@ -298,7 +280,7 @@ fn finite_thickness_gives_the_loss_of_elements() {
         // The script computes both by itself.
         assert_close(travel, number("wave_travel"), 1e-4);
         assert_close(plate_lambda(&hertz, mobility), number("lambda"), 1e-4);
-        let relaxation = PairRelaxation::new(Some(&ball), Some(&plate)).unwrap();
+        let relaxation = relaxation_of([&ball, &plate]);
         let size = FiniteSize::new(Some((0.5 * diameter, &ball)), None).unwrap();
         let ting = Ting::new(&pair, relaxation).with_finite_size(size);
         let factor = plate_thickness_factor(&plate, travel);
@@ -344,21 +326,23 @@ fn map_material(name: &str) -> Material {
         "carbide" => (600e9, 15000.0, 0.22),
         other => panic!("{other}"),
     };
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, ratio).unwrap();
-    Material::new(density, moduli, None).unwrap()
+    common::elastic([modulus, ratio, density])
 }
 
-/// A ball of 12 mm of steel with Y = 235 MPa on a plate of the same at 3 m/s.
+/// A ball of 12 mm of steel on a plate of the same.
+fn larger_pair() -> Pair {
+    Pair::new(Partner::solid_sphere(12e-3, &steel()), Partner::half_space(&steel())).unwrap()
+}
+
+/// The larger ball with Y = 235 MPa, at a speed (m/s) on a plate of a thickness (m).
 fn yielding(speed: f64, thickness: f64) -> FirstYield {
-    let pair =
-        Pair::new(Partner::solid_sphere(12e-3, &steel()), Partner::half_space(&steel())).unwrap();
     let body = |radius: f64| YieldingBody {
         yield_strength: 235e6,
         poissons_ratio: 0.3,
         plane_strain_modulus: steel().instantaneous().plane_strain_modulus(),
         radius,
     };
-    let hertz = HertzImpact::new(&pair, speed).unwrap();
+    let hertz = HertzImpact::new(&larger_pair(), speed).unwrap();
     let bodies = [Some(body(6e-3)), Some(body(f64::INFINITY))];
     let plate = FreePlate { material: steel(), thickness, diameter: f64::INFINITY };
     FirstYield::earliest(&hertz, bodies).unwrap().1.with_plate(&plate).unwrap()
@@ -404,8 +388,7 @@ fn a_thin_plate_delays_first_yield() {
         assert!(first.speed > last, "{thickness}: {} {last}", first.speed);
         last = first.speed;
         let mobility = plate_mobility(&steel(), thickness);
-        let pair = Pair::new(Partner::solid_sphere(12e-3, &steel()), Partner::half_space(&steel()));
-        let pair = pair.unwrap();
+        let pair = larger_pair();
         let model = LawImpact::new(&pair, hertz(&pair).unwrap()).with_plate(mobility).unwrap();
         let radius = model.impact(last).unwrap().max_contact_radius;
         let modulus = pair.contact_modulus() / pair.effective_radius();

@@ -4,24 +4,16 @@ use crate::direct::{Direct, direct};
 use fem_laws::{
     HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, SlipSurface, SurfaceSlip, Ting,
 };
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material};
 
-use crate::common::assert_close;
+use crate::common::{GLASS, assert_close, decaying, pair_of, relaxation_of};
 
 fn glass(acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-    let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
-    let series = PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap();
-    Material::new(2390.0, moduli, Some(series)).unwrap()
-}
-
-fn pair_of(material: &Material) -> Pair {
-    let sphere = |diameter| Partner::solid_sphere(diameter, material);
-    Pair::new(sphere(22.2e-3), sphere(15.9e-3)).unwrap()
+    decaying(GLASS, acts_on, terms)
 }
 
 fn ting(material: &Material) -> Ting {
-    Ting::new(&pair_of(material), PairRelaxation::new(Some(material), Some(material)).unwrap())
+    Ting::new(&pair_of(material), relaxation_of([material; 2]))
 }
 
 fn impact(acts_on: ActsOn, rate: f64) -> Impact {
@@ -70,7 +62,7 @@ fn ting_equals_direct_integration() {
     ];
     for material in &materials {
         let pair = pair_of(material);
-        let relaxation = PairRelaxation::new(Some(material), Some(material)).unwrap();
+        let relaxation = relaxation_of([material; 2]);
         let found = Ting::new(&pair, relaxation.clone()).impact(0.5).unwrap();
         let values = [
             found.restitution,

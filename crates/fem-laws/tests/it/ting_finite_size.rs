@@ -3,27 +3,21 @@
 
 use crate::direct::{Direct, direct};
 use fem_laws::{FiniteSize, HertzImpact, LawError, Pair, PairRelaxation, Partner, Ting};
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material};
 
-use crate::common::assert_close;
+use crate::common::{self, assert_close, carson, decaying, relaxation_of};
 
 /// Hertz' contact time of the elastic pair at 0.5 m/s, s.
 const CONTACT_TIME: f64 = 63.235e-6;
 
 const RADII: [f64; 2] = [11.1e-3, 7.95e-3];
 
-fn moduli(youngs_modulus: f64, poissons_ratio: f64) -> ElasticModuli {
-    ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, poissons_ratio).unwrap()
-}
-
 fn elastic(youngs_modulus: f64, poissons_ratio: f64) -> Material {
-    Material::new(2390.0, moduli(youngs_modulus, poissons_ratio), None).unwrap()
+    common::elastic([youngs_modulus, poissons_ratio, 2390.0])
 }
 
 fn relaxing(poissons_ratio: f64, acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
-    let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
-    let series = PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap();
-    Material::new(2390.0, moduli(63e9, poissons_ratio), Some(series)).unwrap()
+    decaying([63e9, poissons_ratio, 2390.0], acts_on, terms)
 }
 
 fn glass(acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
@@ -33,8 +27,7 @@ fn glass(acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
 /// The pair, and its relaxation.
 fn pair_of(materials: [&Material; 2]) -> (Pair, PairRelaxation) {
     let [first, second] = [0, 1].map(|i| Partner::solid_sphere(2.0 * RADII[i], materials[i]));
-    let relaxation = PairRelaxation::new(Some(materials[0]), Some(materials[1])).unwrap();
-    (Pair::new(first, second).unwrap(), relaxation)
+    (Pair::new(first, second).unwrap(), relaxation_of(materials))
 }
 
 fn finite_size(materials: [&Material; 2]) -> FiniteSize {
@@ -163,11 +156,7 @@ const STEHFEST: [f64; 12] = [
 /// The elastic material with the moduli of Carson's transform at s.
 fn at_laplace(material: &Material, s: f64) -> Material {
     let Some(series) = material.relaxation() else { return material.clone() };
-    let decaying = series.terms().iter().map(|term| {
-        let st = s * term.relaxation_time;
-        term.weight * st / (1.0 + st)
-    });
-    let fraction = series.equilibrium_weight() + decaying.sum::<f64>();
+    let fraction = carson(series.equilibrium_weight(), series.terms(), s);
     let shear = material.instantaneous().shear_modulus() * fraction;
     let all = series.acts_on() == ActsOn::All;
     let bulk = material.instantaneous().bulk_modulus() * if all { fraction } else { 1.0 };

@@ -4,16 +4,14 @@ use fem_laws::{
     FiniteSize, HertzImpact, Impact, ImpactPath, LawError, Pair, PairRelaxation, Partner, Ting,
     radiated_share, radiation_damping, restitution_of_mass_centres, sphere_mass,
 };
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, Material};
+
+use crate::common::{decaying, relaxation_of};
 
 const RADIUS: f64 = 5e-3;
 
 fn material(terms: &[(f64, f64)], acts_on: ActsOn) -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.25).unwrap();
-    let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
-    let terms: Vec<PronyTerm> = terms.iter().map(term).collect();
-    let series = (!terms.is_empty()).then(|| PronySeries::new(terms, acts_on).unwrap());
-    Material::new(2390.0, moduli, series).unwrap()
+    decaying([63e9, 0.25, 2390.0], acts_on, terms)
 }
 
 fn elastic() -> Material {
@@ -28,7 +26,7 @@ fn bar_wave_speed(material: &Material) -> f64 {
 fn on_block(ball: &Material, block: &Material) -> (Pair, Ting) {
     let sphere = Partner::solid_sphere(2.0 * RADIUS, ball);
     let pair = Pair::new(sphere, Partner::half_space(block)).unwrap();
-    (pair, Ting::new(&pair, PairRelaxation::new(Some(ball), Some(block)).unwrap()))
+    (pair, Ting::new(&pair, relaxation_of([ball, block])))
 }
 
 fn radiating(ball: &Material, block: &Material, speed: f64) -> Impact {
@@ -106,8 +104,7 @@ fn large_spheres_meet_finite_elements() {
         let block = Partner::Sphere { radius, mass: f64::INFINITY, plane_strain_modulus: modulus };
         let pair = Pair::new(ball, block).unwrap();
         let size = FiniteSize::new(Some((RADIUS, &glass)), None).unwrap();
-        let relaxation = PairRelaxation::new(Some(&glass), Some(&glass)).unwrap();
-        let ting = Ting::new(&pair, relaxation).with_finite_size(size);
+        let ting = Ting::new(&pair, relaxation_of([&glass; 2])).with_finite_size(size);
         let found = ting.with_radiation([&glass]).unwrap().impact(speed).unwrap();
         let mass_ratio = mass(&glass) / sphere_mass(diameter, glass.density());
         let found = 1.0 - restitution_of_mass_centres(found.restitution, mass_ratio);

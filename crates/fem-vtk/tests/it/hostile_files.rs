@@ -46,87 +46,91 @@ fn unmodified_square_is_read() {
     );
 }
 
+/// Every wrong number of the mesh: points, connectivity, offsets and types, and what the message says.
 #[test]
 fn reader_rejects_wrong_numbers_in_the_mesh() {
-    refuse(
-        &ascii("0 0 0 1 0 0 1 1 0 0 1", "0 1 2 3", "4", "9"),
-        "found 11 values; allowed: 4 tuples x 3",
-    );
-    refuse(
-        &ascii("0 0 0 1 0 0 1 1 0 0 nan 0", "0 1 2 3", "4", "9"),
-        "NaN at index 3 (component 1)",
-    );
-    refuse(
-        &ascii("0 0 0 1 0 0 1 1 0 0 x 0", "0 1 2 3", "4", "9"),
-        "found \"x\"; allowed: numbers of type Float64",
-    );
-    refuse(&ascii(POINTS, "0 1 2 4", "4", "9"), "point 4 at corner 3 of cell 0; allowed: 0 to 3");
-    refuse(&ascii(POINTS, "0 1 -2 3", "4", "9"), "point -2 at corner 2");
-    refuse(&ascii(POINTS, "0 1 2", "4", "9"), "found 3 values; allowed: 1 tuples x 4");
-    refuse(&ascii(POINTS, "0 1 2 3", "3", "9"), "found 3 at cell 0; allowed: 4, 8, 12");
-    refuse(&ascii(POINTS, "0 1 2 3", "4 8", "9"), "found 2 values; allowed: 1 tuples");
-    refuse(&ascii(POINTS, "0 1 2 3", "4", "23"), "type 23 (VTK_QUADRATIC_QUAD)");
-    refuse(&ascii(POINTS, "0 1 2 3", "4", ""), "found 0 values");
-}
-
-#[test]
-fn offsets_that_leave_gaps_and_data_in_pieces() {
-    refuse(&ascii(POINTS, "0 1 2 3", "5", "9"), "found 5 at cell 0");
+    let good = [POINTS, "0 1 2 3", "4", "9"];
     let pieces = POINTS.replacen(' ', " <!-- first point --> ", 1);
-    refuse(&ascii(&pieces, "0 1 2 3", "4", "9"), "data in several pieces");
+    for (part, wrong, words) in [
+        (0, "0 0 0 1 0 0 1 1 0 0 1", "found 11 values; allowed: 4 tuples x 3"),
+        (0, "0 0 0 1 0 0 1 1 0 0 nan 0", "NaN at index 3 (component 1)"),
+        (0, "0 0 0 1 0 0 1 1 0 0 x 0", "found \"x\"; allowed: numbers of type Float64"),
+        (0, &pieces, "data in several pieces"),
+        (1, "0 1 2 4", "point 4 at corner 3 of cell 0; allowed: 0 to 3"),
+        (1, "0 1 -2 3", "point -2 at corner 2"),
+        (1, "0 1 2", "found 3 values; allowed: 1 tuples x 4"),
+        (2, "3", "found 3 at cell 0; allowed: 4, 8, 12"),
+        (2, "5", "found 5 at cell 0"),
+        (2, "4 8", "found 2 values; allowed: 1 tuples"),
+        (3, "23", "type 23 (VTK_QUADRATIC_QUAD)"),
+        (3, "", "found 0 values"),
+    ] {
+        let mut parts = good;
+        parts[part] = wrong;
+        let [points, connectivity, offsets, types] = parts;
+        refuse(&ascii(points, connectivity, offsets, types), words);
+    }
 }
 
 #[test]
 fn reader_rejects_wrong_point_and_cell_counts() {
-    let count = |piece: &str| square(piece, POINTS, "0 1 2 3", "4", "9");
-    refuse(&count("NumberOfPoints=\"0\" NumberOfCells=\"0\""), "found 0 points, 0 cells");
-    refuse(&count("NumberOfPoints=\"-4\" NumberOfCells=\"1\""), "NumberOfPoints \"-4\"");
-    refuse(&count("NumberOfPoints=\"4\""), "NumberOfCells \"\"");
     let largest = usize::MAX;
-    refuse(&count(&format!("NumberOfPoints=\"{largest}\" NumberOfCells=\"1\"")), "found 12 values");
-    refuse(&count(&format!("NumberOfPoints=\"4\" NumberOfCells=\"{largest}\"")), "found 1 values");
+    for (piece, words) in [
+        ("NumberOfPoints=\"0\" NumberOfCells=\"0\"", "found 0 points, 0 cells"),
+        ("NumberOfPoints=\"-4\" NumberOfCells=\"1\"", "NumberOfPoints \"-4\""),
+        ("NumberOfPoints=\"4\"", "NumberOfCells \"\""),
+        (&format!("NumberOfPoints=\"{largest}\" NumberOfCells=\"1\""), "found 12 values"),
+        (&format!("NumberOfPoints=\"4\" NumberOfCells=\"{largest}\""), "found 1 values"),
+    ] {
+        refuse(&square(piece, POINTS, "0 1 2 3", "4", "9"), words);
+    }
 }
 
 #[test]
 fn reader_rejects_other_file_types() {
-    let square = ascii(POINTS, "0 1 2 3", "4", "9");
     refuse("", "no VTKFile element");
     refuse("# vtk DataFile Version 5.1\nASCII\n", "no VTKFile element");
     refuse("<html></html>", "root element html");
     refuse("<VTKFile type=\"PolyData\"/>", "type \"PolyData\"");
     refuse("<VTKFile type=\"UnstructuredGrid\"/>", "no VTKFile element with a Piece");
-    refuse(&square.replace("LittleEndian", "BigEndian"), "byte_order \"BigEndian\"");
-    refuse(
-        &square.replace("<VTKFile", "<VTKFile header_type=\"UInt16\""),
-        "header_type \"UInt16\"",
-    );
-    refuse(&square.replace("Int32", "Int31"), "type \"Int31\"");
-    refuse(
-        &square.replace("\"connectivity\"", "\"other\""),
-        "no array \"connectivity\"; it has: other, offsets, types",
-    );
-    refuse(&square.replace("ascii", "morse"), "format \"morse\"");
-    refuse(&square.replace("ascii", "appended"), "AppendedData element");
-    refuse(
-        &square.replace("NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""),
-        "NumberOfComponents \"0\"",
-    );
-    refuse(&square.replace("NumberOfComponents=\"3\"", ""), "1 components of type Float64");
-    refuse(
-        &square.replace("</Piece>", "</Piece><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"/>"),
-        "2 pieces",
-    );
-    refuse(&square.replace("<Cells>", "<Cells"), "broken XML");
-    refuse(&square.replace("0 1 2 3", "0 1 &lt; 3"), "XML references");
-    refuse(&square.replace("</UnstructuredGrid></VTKFile>", ""), "still open");
+    let square = ascii(POINTS, "0 1 2 3", "4", "9");
+    let second = "</Piece><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"/>";
+    for (part, wrong, words) in [
+        ("LittleEndian", "BigEndian", "byte_order \"BigEndian\""),
+        ("<VTKFile", "<VTKFile header_type=\"UInt16\"", "header_type \"UInt16\""),
+        ("Int32", "Int31", "type \"Int31\""),
+        (
+            "\"connectivity\"",
+            "\"other\"",
+            "no array \"connectivity\"; it has: other, offsets, types",
+        ),
+        ("ascii", "morse", "format \"morse\""),
+        ("ascii", "appended", "AppendedData element"),
+        ("Components=\"3\"", "Components=\"0\"", "NumberOfComponents \"0\""),
+        ("NumberOfComponents=\"3\"", "", "1 components of type Float64"),
+        ("</Piece>", second, "2 pieces"),
+        ("<Cells>", "<Cells", "broken XML"),
+        ("0 1 2 3", "0 1 &lt; 3", "XML references"),
+        ("</UnstructuredGrid></VTKFile>", "", "still open"),
+    ] {
+        assert!(square.contains(part), "{part}");
+        refuse(&square.replace(part, wrong), words);
+    }
 }
 
 /// The square with its points in base64; `attributes` go to the root.
 fn binary(attributes: &str, points: &[u8]) -> String {
-    ascii(&STANDARD.encode(points), "0 1 2 3", "4", "9")
+    encoded(attributes, &STANDARD.encode(points))
+}
+
+fn encoded(attributes: &str, points: &str) -> String {
+    ascii(points, "0 1 2 3", "4", "9")
         .replacen("ascii", "binary", 1)
         .replace("<VTKFile", &format!("<VTKFile {attributes}"))
 }
+
+const WIDE: &str = "header_type=\"UInt64\"";
+const ZLIB: &str = "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
 
 fn header(numbers: &[u64]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
@@ -134,28 +138,23 @@ fn header(numbers: &[u64]) -> Vec<u8> {
 
 #[test]
 fn reader_rejects_headers_that_claim_too_many_bytes() {
-    let wide = "header_type=\"UInt64\"";
     for n_bytes in [1, 96, 1 << 40, u64::MAX] {
-        refuse(&binary(wide, &header(&[n_bytes])), "truncated");
+        refuse(&binary(WIDE, &header(&[n_bytes])), "truncated");
     }
-    refuse(&binary(wide, &[1, 2, 3]), "truncated");
-    refuse(&binary(wide, &[]), "truncated");
+    refuse(&binary(WIDE, &[1, 2, 3]), "truncated");
+    refuse(&binary(WIDE, &[]), "truncated");
 
-    let zlib = "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
     for n_blocks in [1, 1 << 20, 1 << 60, u64::MAX] {
-        refuse(&binary(zlib, &header(&[n_blocks, 32768, 0])), "truncated");
+        refuse(&binary(ZLIB, &header(&[n_blocks, 32768, 0])), "truncated");
     }
-    refuse(&binary(zlib, &header(&[1, 32768, 96, u64::MAX])), "truncated");
-    refuse(&binary(zlib, &header(&[2, 32768, 96, u64::MAX, u64::MAX])), "truncated");
-    refuse(&binary(zlib, &header(&[0, 0, 0])), "found 0 values");
+    refuse(&binary(ZLIB, &header(&[1, 32768, 96, u64::MAX])), "truncated");
+    refuse(&binary(ZLIB, &header(&[2, 32768, 96, u64::MAX, u64::MAX])), "truncated");
+    refuse(&binary(ZLIB, &header(&[0, 0, 0])), "found 0 values");
 }
 
 /// As VTK encodes it: header and blocks each padded.
 fn zlib_points(numbers: &[u64], blocks: &[u8]) -> String {
-    let text = STANDARD.encode(header(numbers)) + &STANDARD.encode(blocks);
-    ascii(&text, "0 1 2 3", "4", "9")
-        .replacen("ascii", "binary", 1)
-        .replace("<VTKFile", "<VTKFile header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"")
+    encoded(ZLIB, &(STANDARD.encode(header(numbers)) + &STANDARD.encode(blocks)))
 }
 
 #[test]
@@ -186,10 +185,10 @@ fn blocks_that_are_not_what_the_header_says() {
 
 #[test]
 fn broken_base64_and_offsets() {
-    let short = binary("header_type=\"UInt64\"", &[0; 7]);
+    let short = binary(WIDE, &[0; 7]);
     assert!(short.contains("AAAAAAAAAA=="), "seven bytes fill the characters of a header");
     refuse(&short, "truncated");
-    let base64 = binary("header_type=\"UInt64\"", &header(&[96]));
+    let base64 = binary(WIDE, &header(&[96]));
     refuse(&base64.replacen("YAAA", "Y!AA", 1), "broken base64");
     let appended =
         ascii("", "0 1 2 3", "4", "9").replacen("\"ascii\"", "\"appended\" offset=\"9\"", 1);

@@ -6,6 +6,7 @@ use fem_case::schema::*;
 use fem_case::{Case, CaseFile, Quantity};
 
 use crate::faults::message_table::VALID;
+use crate::parse_in;
 
 /// Returns the case as text.
 fn text() -> String {
@@ -14,8 +15,7 @@ fn text() -> String {
 
 /// Reads the text with overrides.
 pub fn parsed(overrides: &[&str]) -> Case {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Case::parse("pair.toml", &text(), Path::new("."), &overrides).unwrap()
+    parse_in(Path::new("."), "pair.toml", &text(), overrides).unwrap()
 }
 
 /// Returns the case of [`text`], made in code.

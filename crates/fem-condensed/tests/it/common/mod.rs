@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest};
-use fem_condensed::{CondensedPair, PairSettings};
+use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_explicit::{ExplicitBodies, Settings};
 use fem_laws::{FiniteSize, HertzImpact, Impact, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -25,6 +25,18 @@ pub const POLYMER: [f64; 3] = [3e9, 0.4, 1200.0];
 
 pub fn glass() -> Material {
     material(GLASS, ActsOn::All, &[])
+}
+
+pub fn sphere(
+    radius: f64,
+    contact_element_size: f64,
+    refined_radius: f64,
+    side: Side,
+) -> SphereMesh {
+    HalfDisc { radius, contact_element_size, refined_radius, growth: None, edge: None }
+        .build()
+        .unwrap()
+        .on_side(side)
 }
 
 /// A body of a scene: diameter (m) and material; `None` is a wall.
@@ -72,14 +84,8 @@ impl Scene {
     pub fn mesh(&self, side: usize, elements: f64) -> Option<SphereMesh> {
         let contact_radius = self.hertz().max_contact_radius();
         let (diameter, _) = self.bodies[side].as_ref()?;
-        let disc = HalfDisc {
-            radius: 0.5 * diameter,
-            contact_element_size: contact_radius / elements,
-            refined_radius: 1.2 * contact_radius,
-            growth: None,
-            edge: None,
-        };
-        Some(disc.build().unwrap().on_side([Side::Below, Side::Above][side]))
+        let side = [Side::Below, Side::Above][side];
+        Some(sphere(0.5 * diameter, contact_radius / elements, 1.2 * contact_radius, side))
     }
 
     pub fn inputs(&self, elements: f64) -> [BodyInput; 2] {
@@ -97,7 +103,28 @@ impl Scene {
 
     /// Condenses the pair with a number of elements per contact radius, exact contact and no vibration.
     pub fn condensed(&self, elements: f64) -> CondensedPair {
-        CondensedPair::new(self.inputs(elements), self.settings()).unwrap()
+        self.condensed_with(elements, self.settings())
+    }
+
+    pub fn condensed_with(&self, elements: f64, settings: PairSettings) -> CondensedPair {
+        CondensedPair::new(self.inputs(elements), settings).unwrap()
+    }
+
+    /// Condenses the pair with modes of vibration.
+    pub fn vibrating(&self, elements: f64, vibration_modes: usize) -> CondensedPair {
+        self.condensed_with(elements, PairSettings { vibration_modes, ..self.settings() })
+    }
+
+    /// Condenses the pair with penalty springs of a stiffness, Pa.
+    pub fn on_springs(
+        &self,
+        elements: f64,
+        stiffness: f64,
+        vibration_modes: usize,
+    ) -> CondensedPair {
+        let contact = ContactModel::Springs(stiffness);
+        let settings = PairSettings { contact, vibration_modes, ..self.settings() };
+        self.condensed_with(elements, settings)
     }
 
     pub fn collide(&self, pair: &CondensedPair) -> Collision {

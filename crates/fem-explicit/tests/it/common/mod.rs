@@ -102,15 +102,9 @@ impl Pair {
 
     pub fn sphere(&self, body: usize) -> BodyInput {
         let [length, ..] = self.units;
-        let disc = HalfDisc {
-            radius: self.radii[body] * length,
-            contact_element_size: self.element_size * length,
-            refined_radius: 0.3e-3 * length,
-            growth: None,
-            edge: None,
-        };
-        let side = if body == 0 { Side::Below } else { Side::Above };
-        BodyInput::Sphere { mesh: disc.build().unwrap().on_side(side), material: self.material() }
+        let [radius, size] = [self.radii[body] * length, self.element_size * length];
+        let mesh = sphere(radius, size, 0.3e-3 * length, [Side::Below, Side::Above][body]);
+        BodyInput::Sphere { mesh, material: self.material() }
     }
 
     pub fn approach(&self) -> Approach {
@@ -121,14 +115,10 @@ impl Pair {
 
     pub fn settings(&self) -> Settings {
         let [length, time, mass] = self.units;
-        Settings {
-            contact_stiffness: self.penalty_factor * 10.0 * CONTACT_MODULUS * mass
-                / (length * time * time),
-            candidate_radius: self.candidate_radius * length,
-            step_factor: self.step_factor,
-            mass_scaling: 2e-4,
-            mass_times: [1.0; 2],
-        }
+        let stiffness =
+            self.penalty_factor * 10.0 * CONTACT_MODULUS * mass / (length * time * time);
+        let usual = settings(stiffness, self.candidate_radius * length);
+        Settings { step_factor: self.step_factor, ..usual }
     }
 
     pub fn model(&self) -> ExplicitBodies {
@@ -209,6 +199,37 @@ pub fn quantities(run: &Collision) -> Quantities {
     }
 }
 
+/// Returns an elastic material of a modulus (Pa), Poisson's ratio and density (kg/m³).
+pub fn elastic(youngs_modulus: f64, poissons_ratio: f64, density: f64) -> Material {
+    let moduli =
+        ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, poissons_ratio).unwrap();
+    Material::new(density, moduli, None).unwrap()
+}
+
+/// Returns a sphere with elements of a size as far as a radius from the first touch.
+pub fn sphere(
+    radius: f64,
+    contact_element_size: f64,
+    refined_radius: f64,
+    side: Side,
+) -> SphereMesh {
+    HalfDisc { radius, contact_element_size, refined_radius, growth: None, edge: None }
+        .build()
+        .unwrap()
+        .on_side(side)
+}
+
+/// Returns settings with the usual step factor and mass scaling.
+pub fn settings(contact_stiffness: f64, candidate_radius: f64) -> Settings {
+    Settings {
+        contact_stiffness,
+        candidate_radius,
+        step_factor: 0.9,
+        mass_scaling: 2e-4,
+        mass_times: [1.0; 2],
+    }
+}
+
 /// Returns a glass of ν = 0.244 in units of density, shear modulus and so of the shear wave speed.
 pub fn unit_glass(relaxation: Option<PronySeries>) -> Material {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.0 * 1.244, 0.244).unwrap();
@@ -217,12 +238,5 @@ pub fn unit_glass(relaxation: Option<PronySeries>) -> Material {
 
 /// Returns an upper unit sphere with `n` elements over the radius, nearly uniform.
 pub fn unit_sphere(n: f64) -> SphereMesh {
-    let disc = HalfDisc {
-        radius: 1.0,
-        contact_element_size: 1.0 / n,
-        refined_radius: 0.5,
-        growth: None,
-        edge: None,
-    };
-    disc.build().unwrap().on_side(Side::Above)
+    sphere(1.0, 1.0 / n, 0.5, Side::Above)
 }

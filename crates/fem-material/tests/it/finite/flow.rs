@@ -19,11 +19,15 @@ fn linear(modulus: f64) -> Hardening {
     Hardening::Linear { yield_strength: YIELD, modulus }
 }
 
+/// A table of plastic strain and flow stress.
+fn table_of(rows: &[(f64, f64)]) -> Hardening {
+    let point = |&(plastic_strain, flow_stress)| FlowPoint { plastic_strain, flow_stress };
+    Hardening::Table(rows.iter().map(point).collect())
+}
+
 fn table() -> Hardening {
-    let point = |(plastic_strain, flow_stress)| FlowPoint { plastic_strain, flow_stress };
     // A plateau, a steep part and a flat one: not concave.
-    let rows = [(0.0, YIELD), (0.01, YIELD), (0.02, 1.5 * YIELD), (0.3, 2.0 * YIELD)];
-    Hardening::Table(rows.map(point).to_vec())
+    table_of(&[(0.0, YIELD), (0.01, YIELD), (0.02, 1.5 * YIELD), (0.3, 2.0 * YIELD)])
 }
 
 fn swift() -> Hardening {
@@ -308,10 +312,7 @@ fn stored_energy_and_plastic_work_are_the_work_of_the_stress() {
 #[test]
 fn rules_that_cannot_be_are_errors() {
     let error = |hardening| FlowRule::new(hardening, None).unwrap_err();
-    let rows = |rows: &[(f64, f64)]| {
-        let point = |&(plastic_strain, flow_stress)| FlowPoint { plastic_strain, flow_stress };
-        error(Hardening::Table(rows.iter().map(point).collect()))
-    };
+    let rows = |rows: &[(f64, f64)]| error(table_of(rows));
     let yield_strength = f64::NAN;
     let found = error(Hardening::Linear { yield_strength, modulus: 0.0 });
     assert!(matches!(found, MaterialError::NotPositive { quantity: "flow.yield_strength", .. }));
@@ -345,11 +346,8 @@ fn a_rule_has_a_closed_form_near_a_strain() {
     }
     let copper = |strain: f64| 90.0 + 292.0 * strain.powf(0.31);
     let strains = (0..40).map(|k| if k == 0 { 0.0 } else { 1e-6 * 1.5f64.powi(k) });
-    let points = strains.map(|plastic_strain| {
-        let flow_stress = copper(plastic_strain);
-        FlowPoint { plastic_strain, flow_stress }
-    });
-    let rule = FlowRule::new(Hardening::Table(points.collect()), None).unwrap();
+    let rows: Vec<_> = strains.map(|strain| (strain, copper(strain))).collect();
+    let rule = FlowRule::new(table_of(&rows), None).unwrap();
     for strain in [0.003, 0.01, 0.05] {
         let closed = rule.closed_form(strain, 0.0);
         assert_eq!(closed.at(0.0), 90.0);
@@ -363,15 +361,9 @@ fn a_rule_has_a_closed_form_near_a_strain() {
         assert!((0.67..1.0).contains(&ratio), "{strain}: {ratio}");
     }
     // Tables that flatten at once, and that begin flat.
-    let table = |rows: [(f64, f64); 3]| {
-        let point = |(plastic_strain, flow_stress)| FlowPoint { plastic_strain, flow_stress };
-        FlowRule::new(Hardening::Table(rows.map(point).to_vec()), None).unwrap()
-    };
-    for (rows, expected) in [
-        ([(0.0, 1.0), (1e-9, 2.0), (1.0, 2.0)], 2.0),
-        ([(0.0, 1.0), (0.05, 1.0), (1.0, 20.0)], 2.0),
-    ] {
-        let found = table(rows).closed_form(0.1, 0.0).at(0.1);
-        assert!((found - expected).abs() < 1e-6, "{found}");
+    for middle in [[(1e-9, 2.0), (1.0, 2.0)], [(0.05, 1.0), (1.0, 20.0)]] {
+        let rule = FlowRule::new(table_of(&[&[(0.0, 1.0)][..], &middle].concat()), None).unwrap();
+        let found = rule.closed_form(0.1, 0.0).at(0.1);
+        assert!((found - 2.0).abs() < 1e-6, "{found}");
     }
 }

@@ -49,6 +49,52 @@ fn product([a, b, c, d, t]: [f64; 5], [e, f, g, h, u]: [f64; 5]) -> [f64; 5] {
     [a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h, t * u]
 }
 
+fn distance(a: [f64; 5], b: [f64; 5]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// Cauchy's stress of P by components: P Fᵀ/J.
+fn cauchy_of(piola: [f64; 5], h: &AxisymmetricTensor) -> [f64; 5] {
+    let [rr, ry, yr, yy, tt] = deformation(h);
+    let jacobian = (rr * yy - ry * yr) * tt;
+    product(piola, [rr, yr, ry, yy, tt]).map(|x| x / jacobian)
+}
+
+/// Slopes of a first Piola-Kirchhoff stress, by differences.
+fn differences(
+    h: &AxisymmetricTensor,
+    stress: impl Fn(&AxisymmetricTensor) -> AxisymmetricTensor,
+) -> [[f64; 5]; 5] {
+    let delta = 1e-5;
+    let mut slopes = [[0.0; 5]; 5];
+    for l in 0..5 {
+        let at = |shift: f64| {
+            let mut moved = components(h);
+            moved[l] += shift;
+            components(&stress(&tensor(moved)))
+        };
+        let (after, before) = (at(delta), at(-delta));
+        for k in 0..5 {
+            slopes[k][l] = (after[k] - before[k]) / (2.0 * delta);
+        }
+    }
+    slopes
+}
+
+/// Asserts that a tangent is the slope of a stress.
+#[track_caller]
+fn assert_slopes(
+    tangent: [[f64; 5]; 5],
+    h: &AxisymmetricTensor,
+    tolerance: f64,
+    stress: impl Fn(&AxisymmetricTensor) -> AxisymmetricTensor,
+) {
+    let expected = differences(h, stress);
+    for (found, expected) in tangent.as_flattened().iter().zip(expected.as_flattened()) {
+        assert!((found - expected).abs() < tolerance, "{found} {expected} at {h:?}");
+    }
+}
+
 /// The rotation of the meridian plane by an angle.
 fn rotation(angle: f64) -> [f64; 5] {
     let (s, c) = angle.sin_cos();

@@ -7,11 +7,7 @@ use fem_material::{ActsOn, ElasticModuli, RelaxationStep};
 
 use super::relaxation::{MODES, TERMS, relaxing};
 use super::stiffness::largest_by_powers;
-use super::{Random, components, gradient_of, moduli, solid, tensor};
-
-fn distance(a: [f64; 5], b: [f64; 5]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-}
+use super::{Random, assert_slopes, components, distance, gradient_of, moduli, solid, tensor};
 
 fn hold(solid: &Viscoelastic, h: &AxisymmetricTensor, time: f64) -> Vec<ViscousStrain> {
     let mut history = vec![ViscousStrain::default(); solid.n_terms()];
@@ -217,18 +213,7 @@ fn the_stiffness_of_all_branches_is_the_slope_of_the_stress() {
                 let history = hold(&solid, &random.gradient(size), 1.0);
                 let h = random.gradient(size);
                 let tangent = solid.tangent(&h, &history).unwrap();
-                for l in 0..5 {
-                    let at = |shift: f64| {
-                        let mut moved = components(&h);
-                        moved[l] += shift;
-                        components(&solid.first_piola(&tensor(moved), &history).unwrap())
-                    };
-                    let (after, before) = (at(1e-5), at(-1e-5));
-                    for k in 0..5 {
-                        let error = (after[k] - before[k]) / 2e-5 - tangent[k][l];
-                        assert!(error.abs() < 1e-7, "{law:?} {acts_on:?} {k} {l}: {error:e}");
-                    }
-                }
+                assert_slopes(tangent, &h, 1e-7, |h| solid.first_piola(h, &history).unwrap());
                 let found = solid.largest_stiffness(&h, &history).unwrap();
                 let excess = found / largest_by_powers(&tangent) - 1.0;
                 assert!((-1e-9..slack).contains(&excess), "{law:?} {acts_on:?}: {excess:e}");
