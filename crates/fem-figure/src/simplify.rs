@@ -8,9 +8,9 @@ pub(crate) fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<usize> {
     (is_kept[0], is_kept[last]) = (true, true);
     let mut spans = vec![(0, last)];
     while let Some((from, to)) = spans.pop() {
-        let distance = |k: usize| distance(points[k], points[from], points[to]);
-        let farthest = (from + 1..to).max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        if let Some(k) = farthest.filter(|k| distance(*k) > tolerance) {
+        let distance = |k: usize| (distance(points[k], points[from], points[to]), k);
+        let farthest = (from + 1..to).map(distance).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, k)) = farthest.filter(|(distance, _)| *distance > tolerance) {
             is_kept[k] = true;
             spans.extend([(from, k), (k, to)]);
         }

@@ -60,11 +60,7 @@ struct Deflate {
 impl Deflate {
     fn new() -> Self {
         let with = |level| Compress::new(level, true);
-        Self {
-            shrinking: with(LEVEL),
-            storing: with(Compression::none()),
-            room: Vec::with_capacity(ROOM),
-        }
+        Self { shrinking: with(LEVEL), storing: with(Compression::none()), room: vec![0; ROOM] }
     }
 
     fn compress(&mut self, bytes: &[u8]) -> io::Result<Compressed> {
@@ -73,11 +69,17 @@ impl Deflate {
         for value in [n_blocks, BLOCK_SIZE, bytes.len() % BLOCK_SIZE] {
             header.extend((value as u64).to_le_bytes());
         }
-        let state = match self.shrinks(bytes)? {
-            true => &mut self.shrinking,
-            false => &mut self.storing,
-        };
-        let mut blocks = Vec::with_capacity(bytes.len() + MAX_ADDED * n_blocks);
+        let mut blocks = Vec::with_capacity(bytes.len() + MAX_ADDED * (n_blocks + 1));
+        let start = bytes.len().saturating_sub(SAMPLE_SIZE) / 2;
+        let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
+        append_stream(&mut self.shrinking, &mut self.room, sample, &mut blocks)?;
+        let shrinks = blocks.len() as f64 <= MAX_SHARE * sample.len() as f64;
+        if shrinks && sample.len() == bytes.len() {
+            header.extend((blocks.len() as u64).to_le_bytes());
+            return Ok(Compressed { header, blocks });
+        }
+        blocks.clear();
+        let state = if shrinks { &mut self.shrinking } else { &mut self.storing };
         for block in bytes.chunks(BLOCK_SIZE) {
             let start = blocks.len();
             append_stream(state, &mut self.room, block, &mut blocks)?;
@@ -85,44 +87,29 @@ impl Deflate {
         }
         Ok(Compressed { header, blocks })
     }
-
-    /// Returns whether a sample shrinks enough for compression.
-    fn shrinks(&mut self, bytes: &[u8]) -> io::Result<bool> {
-        let start = bytes.len().saturating_sub(SAMPLE_SIZE) / 2;
-        let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
-        let mut compressed = Vec::with_capacity(2 * SAMPLE_SIZE);
-        append_stream(&mut self.shrinking, &mut self.room, sample, &mut compressed)?;
-        Ok(compressed.len() as f64 <= MAX_SHARE * sample.len() as f64)
-    }
 }
 
 /// Appends the zlib stream of a block. zlib splits stored bytes at the size of `room`,
 /// so a constant size gives equal files.
 fn append_stream(
     state: &mut Compress,
-    room: &mut Vec<u8>,
+    room: &mut [u8],
     bytes: &[u8],
     stream: &mut Vec<u8>,
 ) -> io::Result<()> {
     state.reset();
     let mut rest = bytes;
-    while !rest.is_empty() {
-        let before = state.total_in();
-        state.compress_vec(rest, room, FlushCompress::None)?;
-        let taken = (state.total_in() - before) as usize;
-        if taken == 0 && room.is_empty() {
-            return Err(io::Error::other("deflate takes no bytes"));
-        }
-        rest = &rest[taken..];
-        stream.append(room);
-    }
     loop {
-        let status = state.compress_vec(&[], room, FlushCompress::Finish)?;
-        let made = room.len();
-        stream.append(room);
+        let before = (state.total_in(), state.total_out());
+        let flush = if rest.is_empty() { FlushCompress::Finish } else { FlushCompress::None };
+        let status = state.compress(rest, room, flush)?;
+        let taken = (state.total_in() - before.0) as usize;
+        let made = (state.total_out() - before.1) as usize;
+        rest = &rest[taken..];
+        stream.extend_from_slice(&room[..made]);
         match status {
             Status::StreamEnd => return Ok(()),
-            _ if made == 0 => return Err(io::Error::other("a zlib stream has no end")),
+            _ if taken == 0 && made == 0 => return Err(io::Error::other("deflate stands still")),
             _ => {}
         }
     }

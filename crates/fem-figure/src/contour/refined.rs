@@ -1,8 +1,6 @@
 //! Refinement of a field for smooth bands: each quad becomes four, with values on a cubic along each side.
 
-use rustc_hash::FxHashMap;
-
-use super::section::Section;
+use super::section::{Section, Sides};
 
 impl Section {
     /// Returns the section with each quad divided into four, `n` times.
@@ -18,11 +16,14 @@ impl Section {
     fn divided(&self) -> Self {
         let slopes = self.slopes();
         let mut fine = Self { quads: Vec::with_capacity(4 * self.quads.len()), ..self.clone() };
-        let mut middles: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        let neighbours = Sides::of(&self.quads, self.points.len());
+        let mut middles: Vec<[u32; 4]> = Vec::with_capacity(self.quads.len());
         for quad in &self.quads {
             let sides = [0, 1, 2, 3].map(|k: usize| {
                 let [a, b] = [quad[k], quad[(k + 1) % 4]];
-                *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                let known =
+                    neighbours.find([b, a]).and_then(|(cell, k)| Some(middles.get(cell)?[k]));
+                known.unwrap_or_else(|| {
                     let (ends, way) = ([a as usize, b as usize], self.way(a, b));
                     let bend = [0, 1].map(|x: usize| slopes[ends[0]][x] - slopes[ends[1]][x]);
                     let value = 0.5 * (self.values[ends[0]] + self.values[ends[1]]);
@@ -30,6 +31,7 @@ impl Section {
                     fine.add(ends.map(|end| self.points[end]), value)
                 })
             });
+            middles.push(sides);
             let mean = |numbers: [f64; 4]| numbers.iter().sum::<f64>() / 4.0;
             let value = 2.0 * mean(sides.map(|point| fine.values[point as usize]))
                 - mean(quad.map(|point| self.values[point as usize]));

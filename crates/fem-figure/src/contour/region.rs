@@ -1,10 +1,6 @@
 //! The part of a section where the field lies on one side of a level.
 
-use std::collections::BTreeMap;
-
-use rustc_hash::FxHashMap;
-
-use super::section::Section;
+use super::section::{Section, Sides};
 
 /// The bits of a point, which are equal for the shared edges of two triangles.
 type PointBits = [u64; 2];
@@ -82,13 +78,11 @@ pub(crate) struct Cells {
 impl Cells {
     pub fn of(section: &Section) -> Self {
         let quads: Vec<[u32; 4]> = section.finite_quads().collect();
-        let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| [quad[k], quad[(k + 1) % 4]]);
-        let mut owner: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-        owner.reserve(4 * quads.len());
-        for (cell, quad) in quads.iter().enumerate() {
-            owner.extend(sides(quad).map(|side| (side, cell as u32)));
-        }
-        let beyond = |quad: &[u32; 4]| sides(quad).map(|[a, b]| owner.get(&[b, a]).copied());
+        let sides = Sides::of(&quads, section.points.len());
+        let beyond = |quad: &[u32; 4]| {
+            let beyond = |k: usize| sides.find([quad[(k + 1) % 4], quad[k]]);
+            [0, 1, 2, 3].map(|k| beyond(k).map(|(cell, _)| cell as u32))
+        };
         let corners = |quad: &[u32; 4]| {
             quad.map(|point| (section.points[point as usize], section.values[point as usize]))
         };
@@ -113,7 +107,7 @@ impl Cells {
         let is_within =
             |cell: &[Corner; 4]| cell.iter().filter(|(_, value)| sign * value <= level).count();
         let within: Vec<usize> = self.cells.iter().map(is_within).collect();
-        let mut edges = Edges::default();
+        let (mut edges, mut polygon) = (Edges::default(), Vec::new());
         for ((cell, beyond), &n_within) in self.cells.iter().zip(&self.beyond).zip(&within) {
             if n_within == 4 {
                 // A side between two whole quads is no edge.
@@ -130,7 +124,8 @@ impl Cells {
                 continue;
             }
             for k in 0..4 {
-                edges.add_polygon(&clip([cell[k], cell[(k + 1) % 4], centre], level));
+                clip([cell[k], cell[(k + 1) % 4], centre], level, &mut polygon);
+                edges.add_polygon(&polygon);
             }
         }
         Region { loops: edges.into_loops() }
@@ -143,9 +138,9 @@ fn centre(cell: &[Corner; 4]) -> Corner {
     ([mean(&|c| c.0[0]), mean(&|c| c.0[1])], mean(&|c| c.1))
 }
 
-/// Returns the part of a triangle with a linear field where that is at most `level`.
-fn clip(triangle: [Corner; 3], level: f64) -> Vec<[f64; 2]> {
-    let mut polygon = Vec::with_capacity(4);
+/// Finds the part of a triangle with a linear field where that is at most `level`.
+fn clip(triangle: [Corner; 3], level: f64, polygon: &mut Vec<[f64; 2]>) {
+    polygon.clear();
     for k in 0..3 {
         let (from, to) = (triangle[k], triangle[(k + 1) % 3]);
         if from.1 <= level {
@@ -155,7 +150,6 @@ fn clip(triangle: [Corner; 3], level: f64) -> Vec<[f64; 2]> {
             polygon.push(crossing(from, to, level));
         }
     }
-    polygon
 }
 
 /// Returns the point where the field passes the level, with the same bits from both ends.
@@ -165,9 +159,10 @@ fn crossing(a: Corner, b: Corner, level: f64) -> [f64; 2] {
     [0, 1].map(|axis: usize| low.0[axis] + t * (high.0[axis] - low.0[axis]))
 }
 
-/// Directed edges, without those that run in both directions.
+/// Directed edges, of which those that run in both directions cancel: the ends in their order, and whether the edge
+/// runs against it.
 #[derive(Default)]
-struct Edges(FxHashMap<(PointBits, PointBits), u32>);
+struct Edges(Vec<(PointBits, PointBits, bool)>);
 
 impl Edges {
     fn add_polygon(&mut self, polygon: &[[f64; 2]]) {
@@ -180,41 +175,45 @@ impl Edges {
         let place = |point: &[f64; 2]| point.map(|x| (x + 0.0).to_bits());
         let (from, to) = (place(from), place(to));
         if from != to {
-            self.add(from, to);
+            self.0.push((from.min(to), from.max(to), from > to));
         }
     }
 
-    fn add(&mut self, from: PointBits, to: PointBits) {
-        match self.0.get_mut(&(to, from)) {
-            Some(1) => {
-                self.0.remove(&(to, from));
-            }
-            Some(count) => *count -= 1,
-            None => *self.0.entry((from, to)).or_default() += 1,
+    /// Returns the edges that are left, in their order.
+    fn remaining(mut self) -> Vec<(PointBits, PointBits)> {
+        self.0.sort_unstable();
+        let mut onward = Vec::new();
+        for same in self.0.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (low, high, _) = same[0];
+            let n_against = same.iter().filter(|edge| edge.2).count();
+            let n_along = same.len() - n_against;
+            let edge = if n_along > n_against { (low, high) } else { (high, low) };
+            onward.extend(std::iter::repeat_n(edge, n_along.abs_diff(n_against)));
         }
+        onward.sort_unstable();
+        onward
     }
 
     fn into_loops(self) -> Vec<Vec<[f64; 2]>> {
-        let mut onward: BTreeMap<PointBits, Vec<PointBits>> = BTreeMap::new();
-        for ((from, to), count) in self.0 {
-            onward.entry(from).or_default().extend(std::iter::repeat_n(to, count as usize));
-        }
-        for ends in onward.values_mut() {
-            ends.sort_unstable();
-        }
+        let onward = self.remaining();
+        let mut is_taken = vec![false; onward.len()];
         let mut loops = Vec::new();
-        while let Some((&start, _)) = onward.first_key_value() {
-            let mut polygon = Vec::new();
-            let mut place = start;
-            while let Some(ends) = onward.get_mut(&place) {
+        for first in 0..onward.len() {
+            if is_taken[first] {
+                continue;
+            }
+            let (start, mut place, mut polygon) = (onward[first].0, onward[first].0, Vec::new());
+            // Of the edges that go on from a point, the last one is taken first.
+            while let Some(next) = (0..onward.partition_point(|edge| edge.0 <= place))
+                .rev()
+                .take_while(|&k| onward[k].0 == place)
+                .find(|&k| !is_taken[k])
+            {
                 polygon.push(place.map(f64::from_bits));
-                let next = ends.pop();
-                if ends.is_empty() {
-                    onward.remove(&place);
-                }
-                match next {
-                    Some(next) if next != start => place = next,
-                    _ => break,
+                is_taken[next] = true;
+                place = onward[next].1;
+                if place == start {
+                    break;
                 }
             }
             loops.push(polygon);

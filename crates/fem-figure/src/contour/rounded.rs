@@ -1,8 +1,6 @@
 //! Rounding of polygonal outlines into the curves that they approximate.
 
-use rustc_hash::FxHashSet;
-
-use super::section::Section;
+use super::section::{Section, Sides};
 
 /// Cosine of the smallest angle between two sides that is a corner: 40 degrees.
 const CORNER: f64 = 0.766;
@@ -16,9 +14,7 @@ impl Section {
     /// straight side.
     pub fn rounded(&self, tolerance: f64) -> Self {
         let mut rounded = Self { outline: Vec::new(), ..self.clone() };
-        let sides =
-            self.quads.iter().flat_map(|q| [0, 1, 2, 3].map(|k: usize| [q[k], q[(k + 1) % 4]]));
-        let sides: FxHashSet<[u32; 2]> = sides.collect();
+        let sides = Sides::of(&self.quads, self.points.len());
         for (k, pair) in self.outline.windows(2).enumerate() {
             let [a, b] = [pair[0], pair[1]];
             rounded.outline.push(a);
@@ -26,7 +22,7 @@ impl Section {
             let [from, to] = [a, b].map(|point| self.points[point as usize]);
             let off = distances(from, to, bent);
             // Outward is to the right of a side that quads run along, and to the left otherwise.
-            let outward = if sides.contains(&[a, b]) { -1.0 } else { 1.0 };
+            let outward = if sides.find([a, b]).is_some() { -1.0 } else { 1.0 };
             if off.iter().any(|off| outward * off < tolerance) {
                 continue;
             }

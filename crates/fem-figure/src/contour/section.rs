@@ -1,4 +1,4 @@
-//! One body in section.
+//! One body in section, and the sides of its quads.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -102,5 +102,41 @@ impl Section {
             let (from, to) = range.unwrap_or((value, value));
             Some((value.min(from), value.max(to)))
         })
+    }
+}
+
+/// The sides of quads by the point at which they begin.
+pub(super) struct Sides {
+    /// Where the sides of each point begin in `all`, and where those of the last one end.
+    first: Vec<usize>,
+    /// The other end of a side, its quad and its number there.
+    all: Vec<(u32, usize, usize)>,
+}
+
+impl Sides {
+    /// Sorts the sides of quads on so many points.
+    pub fn of(quads: &[[u32; 4]], n_points: usize) -> Self {
+        // Counted two places further on, so that filling `all` moves each beginning to its place.
+        let mut first = vec![0; n_points + 2];
+        quads.as_flattened().iter().for_each(|&point| first[point as usize + 2] += 1);
+        for point in 2..first.len() {
+            first[point] += first[point - 1];
+        }
+        let mut all = vec![(0, 0, 0); 4 * quads.len()];
+        for (cell, quad) in quads.iter().enumerate() {
+            for (k, &from) in quad.iter().enumerate() {
+                let place = &mut first[from as usize + 1];
+                all[*place] = (quad[(k + 1) % 4], cell, k);
+                *place += 1;
+            }
+        }
+        Self { first, all }
+    }
+
+    /// Returns the quad with a side from one point to another, and the number of the side there.
+    pub fn find(&self, [from, to]: [u32; 2]) -> Option<(usize, usize)> {
+        let from = from as usize;
+        let sides = &self.all[self.first[from]..self.first[from + 1]];
+        sides.iter().rev().find(|side| side.0 == to).map(|&(_, cell, k)| (cell, k))
     }
 }

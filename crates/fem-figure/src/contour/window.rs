@@ -64,10 +64,21 @@ impl Window {
                 continue;
             }
             data.push(if last.is_none() { 'M' } else { 'L' });
-            let [x, y] = place.map(|tenths| tenths as f64 / 10.0);
-            let _ = write!(data, "{x} {y}");
+            push_tenths(&mut data, place[0]);
+            data.push(' ');
+            push_tenths(&mut data, place[1]);
             last = Some(place);
         }
         data
     }
+}
+
+/// Writes a number of tenths with a decimal if it has one.
+fn push_tenths(text: &mut String, tenths: i64) {
+    let sign = if tenths < 0 { "-" } else { "" };
+    let (whole, tenth) = (tenths.unsigned_abs() / 10, tenths.unsigned_abs() % 10);
+    let _ = match tenth {
+        0 => write!(text, "{sign}{whole}"),
+        _ => write!(text, "{sign}{whole}.{tenth}"),
+    };
 }
