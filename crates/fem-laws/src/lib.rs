@@ -40,8 +40,8 @@
 //! ```
 
 mod adhesion;
+mod contact_motion;
 mod dent_impact;
-mod dent_on_plate;
 mod difference;
 mod error;
 mod family;

@@ -16,14 +16,14 @@ use std::f64::consts::PI;
 
 use fem_material::FlowStress;
 
+use crate::dent_impact;
 use crate::error::LawError;
 use crate::hertz::{HertzImpact, HertzPressure};
-use crate::impact::ImpactQuantities;
+use crate::impact::{Impact, ImpactQuantities};
 use crate::law_impact::LawImpact;
-use crate::laws::{REPRESENTATIVE_STRAIN, hertz, mean_pressure};
+use crate::laws::{ContactLaw, REPRESENTATIVE_STRAIN, hertz, mean_pressure};
 use crate::pair::Pair;
 use crate::plate::FreePlate;
-use crate::{dent_impact, dent_on_plate};
 
 /// Depths over the contact radius between which the largest stress lies, for any ν.
 const DEPTHS: (f64, f64) = (0.0, 1.5);
@@ -46,7 +46,7 @@ const N_PASSES: usize = 4;
 /// Rate that counts for restitution and force over the mean rate of the loading: both are decided shortly before the turn. Elements with
 /// Y = 1 GPa and C = 0.02 at 1 m/s rebound and press as those with 1.067 Y and no rate, which a fortieth of the mean rate gives; at 10 m/s with 1.085 Y.
 const RATE_BEFORE_THE_TURN: f64 = 0.025;
-/// Tolerance of elastic impacts on a plate.
+/// Tolerance of impacts on a plate.
 const TOLERANCE_ON_PLATE: f64 = 1e-6;
 
 /// The properties of a body on which its first yield depends.
@@ -209,7 +209,9 @@ impl FirstYield {
         let law = mean_pressure(pair, self.flow, self.body.poissons_ratio, shares).ok()?;
         let dent = law.elastic_plastic()?;
         let found = match mobility > 0.0 {
-            true => dent_on_plate::quantities(pair, (&law, dent), mobility, speed),
+            true => on_plate(pair, law, mobility, speed).map(|impact| {
+                impact.quantities(impact.peak_force / (PI * impact.max_contact_radius.powi(2)))
+            }),
             false => dent_impact::quantities(pair, (&law, dent), speed),
         };
         let found = found.ok()?;
@@ -309,11 +311,16 @@ impl FirstYield {
 
 /// Returns the impact of elastic bodies on a plate of a mobility, m/(N s), at a speed, m/s.
 fn elastic_on_plate(pair: &Pair, mobility: f64, speed: f64) -> Result<ImpactQuantities, LawError> {
-    let model = LawImpact::new(pair, hertz(pair)?).with_tolerance(TOLERANCE_ON_PLATE)?;
-    let impact = model.with_plate(mobility)?.impact(speed)?;
+    let impact = on_plate(pair, hertz(pair)?, mobility, speed)?;
     // Hertz' pressure under the largest force: p₀ = 2aE*/πR*.
     let elongation = impact.max_contact_radius / pair.effective_radius();
     Ok(impact.quantities(2.0 / PI * pair.contact_modulus() * elongation))
+}
+
+/// Returns the impact by a law on a plate of a mobility, m/(N s), at a speed, m/s.
+fn on_plate(pair: &Pair, law: ContactLaw, mobility: f64, speed: f64) -> Result<Impact, LawError> {
+    let model = LawImpact::new(pair, law).with_tolerance(TOLERANCE_ON_PLATE)?;
+    model.with_plate(mobility)?.impact(speed)
 }
 
 #[cfg(test)]

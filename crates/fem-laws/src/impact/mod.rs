@@ -7,7 +7,7 @@ pub use path::ImpactPath;
 pub use quantities::ImpactQuantities;
 
 /// Summary and history of one collision, from first touch to the end of contact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Impact {
     /// Relative velocity after over before; 0 if the bodies stay together.
     pub restitution: f64,

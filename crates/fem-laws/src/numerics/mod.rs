@@ -2,6 +2,7 @@
 
 pub mod bisection;
 pub(crate) mod functions;
+pub(crate) mod runge_kutta;
 pub(crate) mod secular_equation;
 
 /// Places and weights of Gauss' quadrature with five points between −1 and 1, the middle one first.
