@@ -91,7 +91,7 @@ def members_of(folder):
     names = {}
     for mark in sorted(folder.rglob("sweep.json")):
         for member in json.loads(mark.read_text())["members"]:
-            names.setdefault(member["id"], f"member{len(names):010}")
+            names.setdefault(member["member"], f"member{len(names):010}")
     return names
 
 

@@ -120,10 +120,6 @@ pub(super) const TIME_PER_ROOT_SCATTER: f64 = 0.02;
 /// Relative error of the contact radius over the scatter.
 pub(super) const RADIUS_PER_SCATTER: f64 = 0.55;
 
-/// Relative error of the pressure of bodies that flow over the scatter of the force: the step of the force at a new node falls on
-/// the few nodes of the contact, and four soft metals (8 to 20 MPa) have 9 to 25 % at 0.6 to 1.3 %.
-pub(super) const PRESSURE_PER_SCATTER_OF_FLOW: f64 = 26.0;
-
 /// Least relative error if the contact is narrower than an element.
 pub(super) const UNRESOLVED_ERROR: f64 = 0.5;
 

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use fem_collision::{Collision, MAX_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
 use super::calibration::{
-    CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, PRESSURE_PER_SCATTER_OF_FLOW, RADIUS_PER_SCATTER,
-    RESTITUTION_PER_ROOT_SCATTER, TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
+    CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER, RESTITUTION_PER_ROOT_SCATTER,
+    TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
 };
 use crate::effects::MassScaling;
 use crate::plan::mesh_source::longest_contact_edge;
@@ -38,8 +38,7 @@ pub(super) fn floor_of_run(
     let energy = 0.5 * unbalanced_energy(collision).unwrap_or(0.0);
     let restitution = energy.max(excess_of_restitution(collision).unwrap_or(0.0));
     let chatter = QuantityOfInterest::ALL.map(|quantity| of_chatter(collision, quantity));
-    let flows = simulation.setup().estimate.flow.is_some();
-    let spikes = if flows { PRESSURE_PER_SCATTER_OF_FLOW } else { 1.0 };
+    let spikes = spikes_of_flow(simulation, collision).unwrap_or(1.0);
     move |quantity| {
         let chatter = chatter[quantity as usize];
         let unresolved = if is_unresolved { UNRESOLVED_ERROR } else { 0.0 };
@@ -53,6 +52,15 @@ pub(super) fn floor_of_run(
             _ => finite(chatter).max(unresolved),
         }
     }
+}
+
+/// Returns the relative error of the pressure of bodies that flow over the scatter of their force: a node that comes into contact
+/// meets an elastic body, whose pressure is so much larger. Four soft metals (8 to 20 MPa) have errors of 9 to 25 % at a scatter
+/// of 0.6 to 1.3 %, and pressures of 1/21 to 1/46 of the elastic ones.
+fn spikes_of_flow(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let estimate = &simulation.setup().estimate;
+    estimate.flow.as_ref()?;
+    Some((estimate.hertz.peak_pressure() / collision.peak_pressure?).max(1.0))
 }
 
 /// Returns the error due to contact chatter.

@@ -236,3 +236,16 @@ fn adhesion_of_later_contacts_is_told() {
             .contains("adhesion takes energy")
     );
 }
+
+/// The error of neglecting adhesion is that of the largest work of adhesion within its uncertainty.
+#[test]
+fn an_uncertain_energy_widens_the_bar() {
+    let bar = |energy: &str| {
+        let energy = format!("material.polystyrene.surface_energy='{energy}'");
+        let set = ["model.hertz={}", "body.1.approach_speed='1 m/s'", &energy];
+        model_bar(&summary_of(POLYSTYRENE, &set), QuantityOfInterest::Restitution).unwrap()
+    };
+    let [known, uncertain, largest] = ["50 mJ/m^2", "50 ± 20 mJ/m^2", "70 mJ/m^2"].map(bar);
+    assert!(relative(uncertain, largest) < 1e-6, "{uncertain} {largest}");
+    assert!(known < 0.8 * largest, "{known} {largest}");
+}

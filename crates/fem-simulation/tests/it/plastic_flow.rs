@@ -386,3 +386,31 @@ fn the_pressure_of_a_flowing_contact_is_known_to_a_few_per_cent() {
     assert!(bar < 0.08, "{bar}");
     assert!((2.6..3.0).contains(&(pressure / 500e6)), "{pressure:e}");
 }
+
+/// A half-space of a soft metal, whose contact force is a staircase. Elements of 60 and 38 µm have 70.7 and 70.3 MPa.
+#[test]
+fn the_bar_of_the_pressure_of_a_soft_metal_holds() {
+    let metal = "material.metal={ density=2700, youngs_modulus='70 GPa', poissons_ratio=0.33, yield_strength='20 MPa' }";
+    let set = [
+        metal,
+        "material.steel={ density=7850, youngs_modulus='210 GPa', poissons_ratio=0.3, elastic=true }",
+        "body.0={ name='ball', sphere={ diameter='8 mm' }, material='steel', approach_speed='3 m/s' }",
+        "body.1={ name='block', half_space={}, material='metal' }",
+        "accuracy.tolerance='1 %'",
+    ];
+    let found = summary_of(BALL, &set);
+    let quantity = QuantityOfInterest::PeakPressure;
+    let (pressure, bar) =
+        (found.collision.number(quantity).unwrap(), found.uncertainty.of(quantity));
+    assert!((pressure - 70.5e6).abs() <= bar.discretisation.unwrap(), "{pressure} {bar:?}");
+    // The elastic contact would have 3.2 GPa; its law is not that of the metal.
+    assert!(bar.model.unwrap() < 0.1 * pressure, "{bar:?}");
+    let warnings = found.warnings.join("\n");
+    assert!(
+        !warnings.contains("penalty_factor") && !warnings.contains("hyperelastic"),
+        "{warnings}"
+    );
+    let law = summary_of(BALL, &[&set[..], &["model={ law={ mean_pressure={} } }"]].concat());
+    let warnings = law.warnings.join("\n");
+    assert!(!warnings.contains("ting"), "{warnings}");
+}

@@ -352,7 +352,9 @@ fn a_signal_ends_a_check_at_once() {
     std::thread::sleep(Duration::from_secs(1));
     assert!(child.try_wait().unwrap().is_none());
     kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGINT).unwrap();
-    assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGINT as i32));
+    // A loaded machine may still be where a signal is waited for.
+    let ended = child.wait().unwrap();
+    assert!(ended.signal() == Some(Signal::SIGINT as i32) || ended.code() == Some(130), "{ended}");
     assert!(!place.path("runs").exists());
 }
 

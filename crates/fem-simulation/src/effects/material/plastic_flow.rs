@@ -123,8 +123,13 @@ impl<'a> Onset<'a> {
             }
             _ => {
                 let of_elements = scene.clone().with_model(ModelChoice::Fem);
-                let has_mesh = Plan::of(&of_elements)
-                    .is_ok_and(|plan| check_size(&of_elements, &plan).is_ok());
+                let is_narrow = scene
+                    .bodies()
+                    .iter()
+                    .any(|it| it.plate().is_some_and(|plate| plate.diameter.is_some()));
+                let has_mesh = !is_narrow
+                    || Plan::of(&of_elements)
+                        .is_ok_and(|plan| check_size(&of_elements, &plan).is_ok());
                 let advice = if has_mesh { "model fem, or law" } else { "law" };
                 let model = scene.model().name();
                 format!("{yields}, and model {model} is elastic: use {advice} mean_pressure")
