@@ -54,12 +54,6 @@ pub struct ImpactInstant {
     pub plate: Option<f64>,
 }
 
-/// Returns the restitution from the rate of the approach at the end of the contact, negative as the bodies separate; 0 for
-/// bodies that stay together, which have no end.
-pub(crate) fn restitution(rate_at_end: Option<f64>, approach_speed: f64) -> f64 {
-    rate_at_end.map_or(0.0, |rate| -rate / approach_speed)
-}
-
 impl Impact {
     /// Returns the quantities of interest with a peak pressure, Pa, which not every model computes.
     pub fn quantities(&self, peak_pressure: f64) -> ImpactQuantities {

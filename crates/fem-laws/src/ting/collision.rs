@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::error::LawError;
 use crate::finite_size::FiniteSize;
 use crate::hertz::HertzImpact;
-use crate::impact::{Impact, ImpactInstant, restitution};
+use crate::impact::{Impact, ImpactInstant};
 use crate::numerics::bisection::last_where;
 use crate::numerics::functions::power;
 use crate::ting::Ting;
@@ -137,7 +137,7 @@ impl<'a> Collision<'a> {
         let parted = record.is_some() && -self.state.rate > STUCK;
         let hertz = self.contact.hertz_approach_of(&turned);
         Ok(Impact {
-            restitution: restitution(parted.then_some(self.state.rate), first_rate),
+            restitution: if parted { -self.state.rate / first_rate } else { 0.0 },
             contact_time: parted.then_some(self.state.time * units.time),
             peak_force: self.peak_force * units.force,
             max_approach: turned.approach.max(self.max_approach) * units.length,

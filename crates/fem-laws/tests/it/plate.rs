@@ -378,7 +378,7 @@ fn a_dented_plate_gives_the_impacts_of_elements() {
     assert_close(block.restitution, 0.373, 0.01);
 }
 
-/// A thin plate gives way, so that the ball yields at a higher speed, from which on Hertz' spring on the plate reaches the pressure of
+/// A thin plate is compliant, so that the ball yields at a higher speed, from which on Hertz' spring on the plate reaches the pressure of
 /// first yield.
 #[test]
 fn a_thin_plate_delays_first_yield() {

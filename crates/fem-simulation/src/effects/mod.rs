@@ -26,18 +26,18 @@ use crate::estimate::plastic_flow::{FlowingImpact, mean_pressure_impact};
 use crate::estimate::plate_impact::PlateImpact;
 use crate::rejection::Rejection;
 
+pub(crate) use decision::effect_named;
 pub use decision::neglect_error::{EffectStatus, NeglectError};
 pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub(crate) use decision::simplified_scene::SimplifiedScene;
 pub use decision::simplified_scene::{Transformation, TransformedScene};
-pub use decision::support::Support;
+pub use decision::support::{Adequacy, ConsideredModel, Support};
 pub use decision::{
     AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, EffectKind,
     FiniteSizeEffect, FiniteStrain, Gravity, HourglassControl, MassScaling, MaterialLoss,
     MirrorSymmetry, NamedEffect, PartnerWaves, PenaltySprings, PlasticFlow, PlateBending,
     RateDependence, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
-pub(crate) use decision::{effect_named, is_needed};
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -1,19 +1,15 @@
 //! Automatic choice of the model, `[model] auto = {}`: the cheapest one that is expected to be within the tolerance.
 //!
 //! The error of a model is estimated before the run. It is the sum of the errors of its own approximations and of the
-//! effects that it lacks ([`Method::support`], [`Effect::neglect_error`]). A model is skipped if it lacks an effect
+//! effects that it lacks ([`Effect::adequacy`]). A model is skipped if it lacks an effect
 //! whose size cannot be estimated, or if its result would come with the advice to use another model.
 
-use fem_case::engineering::number;
-use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Switch, defaults};
+use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, defaults};
 use fem_collision::QuantityOfInterest;
 use serde::Serialize;
 
 use super::method_of;
-use crate::effects::{
-    EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, PartnerWaves, PlasticFlow,
-    PlateBending, Support, Vibration, Viscoelasticity, is_needed,
-};
+use crate::effects::{self, EFFECTS, Effect, Support};
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
@@ -172,17 +168,6 @@ const JUDGED_QUANTITIES: [QuantityOfInterest; 4] = [
     QuantityOfInterest::PeakPressure,
 ];
 
-/// The effects by which models differ. Effects that no model has decide nothing; the plan warns of them.
-const DECIDING_EFFECTS: [&dyn Effect; 7] = [
-    &Viscoelasticity,
-    &FiniteSizeEffect,
-    &FiniteStrain,
-    &PlasticFlow,
-    &PlateBending,
-    &PartnerWaves,
-    &Vibration,
-];
-
 /// The candidates, from the cheapest to the most expensive.
 const CANDIDATES: [Candidate; 6] = [
     Candidate {
@@ -244,89 +229,36 @@ fn closest(judged: &[CandidateVerdict]) -> usize {
 impl Candidate {
     /// Judges the model by the tolerance of the case.
     fn judge(&self, scene: &Scene, estimate: &Estimate) -> CandidateVerdict {
-        let own_scene = scene.clone().with_model((self.choice)());
-        let support =
-            |effect: &dyn Effect| method_of(&own_scene).support(effect, &own_scene, estimate);
-        let is_fem = *own_scene.model() == ModelChoice::Fem;
-        let has_fields = is_fem || matches!(own_scene.model(), ModelChoice::Condensed(_));
-        let is_first_order =
-            matches!(support(&FiniteSizeEffect), Some(Support::Is { active: true, .. }));
+        let own = &scene.clone().with_model((self.choice)());
+        let support = &|effect: &dyn Effect| method_of(own).support(effect, own, estimate);
+        let model = effects::ConsideredModel { case: scene, own, estimate, support };
+        let has_fields = matches!(own.model(), ModelChoice::Fem | ModelChoice::Condensed(_));
+        let disobeyed = EFFECTS.into_iter().find(|effect| model.disobeys(*effect));
+        let mut impossible = disobeyed
+            .map(|effect| format!("cannot do as [effects] says for {}", effect.name()))
+            .or_else(|| {
+                (!has_fields && asks_for_fields(scene))
+                    .then(|| "cannot write the requested snapshots or probes".to_string())
+            });
         let mut error = self.own_error(scene, estimate, has_fields);
-        if is_first_order {
-            let status = EffectStatus::default();
-            error = error.plus(FiniteSizeEffect.model_form_error(scene, estimate, &status));
-        }
-        let mut worst: Option<(&str, f64)> = None;
-        let mut unknown: Option<&str> = None;
-        for effect in DECIDING_EFFECTS {
-            let lacks = lacks(support(effect).as_ref());
-            let is_term = effect.name() == PartnerWaves::NAME && !lacks && !is_fem;
-            if effect.name() == PlateBending::NAME {
-                // The error of thin-plate theory; nothing without a plate.
-                let own = PlateBending::error_of_term(&own_scene, estimate);
-                match own {
-                    Some(own) => error = error.plus(own),
-                    None => unknown = unknown.or(Some(effect.name())),
-                }
-                continue;
-            }
-            // Small strain is no difference between models where elements use it, too.
-            let is_small =
-                effect.name() == FiniteStrain::NAME && !FiniteStrain::is_on(scene, estimate);
-            let is_in_no_model = effect.name() == PlasticFlow::NAME
-                && PlasticFlow::of_elements(scene, estimate) == Support::Lacks;
-            if is_small || is_in_no_model || !(lacks || is_term) {
-                continue;
-            }
-            let Some(change) = error_without(effect, scene, estimate) else {
+        let (mut worst, mut unknown, mut advice) = (None, None, None);
+        for effect in EFFECTS {
+            let found = effect.adequacy(&model);
+            impossible = impossible.or(found.impossible);
+            advice = found.advice.or(advice);
+            let Some(change) = found.error else {
                 unknown = unknown.or(Some(effect.name()));
                 continue;
             };
-            let share = if is_term { PartnerWaves::error_of_term(scene, estimate) } else { 1.0 };
-            let change = change.times(share);
             error = error.plus(change);
             let part = excess(&change, scene, estimate);
-            if worst.is_none_or(|(_, most)| part > most) {
+            if found.is_lack && worst.is_none_or(|(_, most)| part > most) {
                 worst = Some((effect.name(), part));
             }
         }
         let total = excess(&error, scene, estimate);
-        let impossible = disobeyed(scene, estimate, is_fem, support)
-            .map(|name| format!("cannot do as [effects] says for {name}"))
-            .or_else(|| {
-                (!has_fields && asks_for_fields(scene))
-                    .then(|| "cannot write the requested snapshots or probes".to_string())
-            })
-            .or_else(|| {
-                let size = is_first_order.then(|| scene.finite_size().ok()).flatten()?;
-                let radius = viscous_flow::widest_contact(scene, estimate);
-                size.check(radius).err().map(|error| error.to_string())
-            });
-        let impossible = impossible.or_else(|| PlateBending::impossible(&own_scene, estimate));
         let is_possible = impossible.is_none();
-        let rejection_reason = match (impossible, unknown, worst) {
-            (Some(why), ..) => Some(why),
-            (None, Some(name), _) => {
-                Some(format!("lacks {name}, whose effect cannot be estimated"))
-            }
-            (None, None, Some((name, part))) if total > 1.0 && part > 0.5 * total => {
-                Some(format!("lacks {name}: an error of {total:.2} times the tolerance"))
-            }
-            _ if total > 1.0 => Some(format!("has an error of {total:.2} times the tolerance")),
-            _ => None,
-        };
-        let advised = match own_scene.model() {
-            ModelChoice::Condensed(options) => {
-                Vibration::advises_another(estimate, options.vibration_modes)
-            }
-            _ => None,
-        };
-        let lacks_waves = lacks(support(&PartnerWaves).as_ref());
-        let advised = advised.map(str::to_string).or_else(|| {
-            let lost = PartnerWaves::advises_another(scene, estimate).filter(|_| lacks_waves)?;
-            Some(format!("lacks partner waves, which take {} of the restitution", number(lost, 2)))
-        });
-        let rejection_reason = rejection_reason.or(advised);
+        let rejection_reason = impossible.or_else(|| inaccuracy(unknown, worst, total)).or(advice);
         let (error, excess) = match unknown {
             Some(_) => (QuantityErrors::default(), f64::INFINITY),
             None => (error, total),
@@ -350,67 +282,17 @@ impl Candidate {
     }
 }
 
-/// Returns whether a model lacks an effect. `None` means that the model has it without a decision.
-fn lacks(support: Option<&Support>) -> bool {
-    matches!(support, Some(Support::Lacks | Support::Is { active: false, .. }))
-}
-
-/// Returns the model-form error by a neglected effect, `None` if the effect is called for and its size cannot be
-/// estimated.
-fn error_without(
-    effect: &dyn Effect,
-    scene: &Scene,
-    estimate: &Estimate,
-) -> Option<QuantityErrors> {
-    let neglect_error = effect.neglect_error(scene, estimate);
-    let error = match &neglect_error {
-        None if is_needed(effect, scene, estimate) => return None,
-        None => return Some(QuantityErrors::ZERO),
-        // The spread over possible laws is the same in all models.
-        Some(neglect_error) if effect.name() == FiniteStrain::NAME => {
-            neglect_error.of_all_quantities(estimate)
-        }
-        Some(_) => {
-            let status = EffectStatus { is_lacking: true, neglect_error };
-            effect.model_form_error(scene, estimate, &status)
-        }
-    };
-    // A contact that does not end has no contact time.
-    let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
-        .into_iter()
-        .all(|quantity| error.size(quantity).is_some());
-    is_known.then(|| error.unknown_as_zero())
-}
-
-/// Returns the first effect whose switch in the case the model cannot obey.
-fn disobeyed(
-    scene: &Scene,
-    estimate: &Estimate,
-    is_fem: bool,
-    support: impl Fn(&dyn Effect) -> Option<Support>,
-) -> Option<&'static str> {
-    let is_disobeyed = |effect: &&dyn Effect| {
-        let switch = effect.switch(scene.effects());
-        // A switch that transforms the scene is obeyed by any model.
-        let is_open = matches!(switch, None | Some(Switch::Auto));
-        if is_open || effect.transform(scene, estimate).is_ok_and(|scene| scene.is_some()) {
-            return false;
-        }
-        let support = support(*effect);
-        match switch {
-            Some(Switch::On) => support.is_none() || lacks(support.as_ref()),
-            _ => match support {
-                Some(Support::Is { active, .. }) => active,
-                // Elements have the waves in any case.
-                Some(Support::Inherent { .. }) => {
-                    is_fem && effect.name() == PartnerWaves::NAME
-                        || is_needed(*effect, scene, estimate)
-                }
-                _ => false,
-            },
-        }
-    };
-    EFFECTS.into_iter().find(is_disobeyed).map(|effect| effect.name())
+/// Returns why a model is not accurate enough: it lacks an effect of unknown size, or the sum of its errors, of which the worst is
+/// given, is larger than the tolerance.
+fn inaccuracy(unknown: Option<&str>, worst: Option<(&str, f64)>, total: f64) -> Option<String> {
+    if let Some(name) = unknown {
+        return Some(format!("lacks {name}, whose effect cannot be estimated"));
+    }
+    let lacks = worst.filter(|(_, part)| *part > 0.5 * total).map(|(name, _)| name);
+    (total > 1.0).then(|| match lacks {
+        Some(name) => format!("lacks {name}: an error of {total:.2} times the tolerance"),
+        None => format!("has an error of {total:.2} times the tolerance"),
+    })
 }
 
 /// Returns the largest error over its tolerance.

@@ -8,11 +8,12 @@ use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::percent;
 use crate::effects::decision::simplified_scene::SimplifiedScene;
-use crate::effects::decision::support::Support;
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::thin_plate_mobility;
+use crate::estimate::viscous_flow::widest_contact;
 use crate::quantity_errors::QuantityErrors;
 
 /// Coefficient of (a/R*)² in the errors of contact time and peak force: Ting's model with finite size agrees with finite
@@ -99,6 +100,19 @@ impl Effect for FiniteSizeEffect {
             Some((with, without)) => Some(with.change_from(&without)),
             None => Self::by_stiffness(&scene, estimate),
         }
+    }
+
+    /// A model with the first order cannot compute a contact that is too wide for it.
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        if !matches!((model.support)(self), Some(Support::Is { active: true, .. })) {
+            return model.with_or_without(self);
+        }
+        let (scene, estimate) = (model.case, model.estimate);
+        let error = self.model_form_error(scene, estimate, &EffectStatus::default());
+        let size = scene.finite_size().ok();
+        let fault = size.and_then(|size| size.check(widest_contact(scene, estimate)).err());
+        let impossible = fault.map(|fault| fault.to_string());
+        Adequacy { error: Some(error), impossible, ..Adequacy::FULL }
     }
 
     /// A model with the first order has the error of the second. The pressure has the error of half-spaces in any case.

@@ -15,8 +15,8 @@ use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::simplified_scene::SimplifiedScene;
-use crate::effects::decision::support::Support;
-use crate::effects::decision::{Effect, NamedEffect, PartnerWaves, PlateBending};
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
+use crate::effects::decision::{Effect, NamedEffect, PartnerWaves, PlateBending, is_needed};
 use crate::effects::ting_prediction::{TingPrediction, relaxes};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
@@ -94,20 +94,13 @@ impl PartnerWaves {
         lost(radiated(&crossed(scene, estimate), estimate))
     }
 
-    /// Returns the loss of restitution for which the result of a model without the effect advises another model.
-    pub(crate) fn advises_another(scene: &Scene, estimate: &Estimate) -> Option<f64> {
-        let switch = scene.effects().partner_waves;
-        Some(Self::loss(scene, estimate))
-            .filter(|lost| *lost > SMALL_LOSS && switch != Some(Switch::Off))
-    }
-
     /// Returns the loss of restitution by waves that return within the contact and stay in vibrations of elastic bodies.
     pub(in crate::effects) fn left_ringing(scene: &Scene, estimate: &Estimate) -> f64 {
         lost(taken(&crossed(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
     }
 
     /// Returns the relative error of the radiation term.
-    pub(crate) fn error_of_term(scene: &Scene, estimate: &Estimate) -> f64 {
+    fn error_of_term(scene: &Scene, estimate: &Estimate) -> f64 {
         let missing = missing_of_term(&crossed(scene, estimate), estimate);
         RADIATION_ERROR + missing / (1.0 + missing)
     }
@@ -223,6 +216,29 @@ impl Effect for PartnerWaves {
         }
         let share = radiated(&crossed(&with, &estimate), &estimate);
         (share > 0.0).then(|| NeglectError::restitution(lost(share)))
+    }
+
+    /// A radiation term has a share of the error without it, and a mesh none. A result without the waves advises another model
+    /// from a small loss on.
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        let (scene, estimate) = (model.case, model.estimate);
+        let is_lack = model.lacks(self);
+        if !is_lack && *model.own.model() == ModelChoice::Fem {
+            return Adequacy::FULL;
+        }
+        let share = if is_lack { 1.0 } else { Self::error_of_term(scene, estimate) };
+        let error = model.error_without(self).map(|error| error.times(share));
+        let is_off = scene.effects().partner_waves == Some(Switch::Off);
+        let loss = Some(Self::loss(scene, estimate)).filter(|_| is_lack && !is_off);
+        let advice = loss.filter(|lost| *lost > SMALL_LOSS).map(|lost| {
+            format!("lacks partner waves, which take {} of the restitution", number(lost, 2))
+        });
+        Adequacy { error, is_lack: true, impossible: None, advice }
+    }
+
+    /// Elements have the waves in any case.
+    fn is_never_off(&self, model: &ConsideredModel) -> bool {
+        *model.own.model() == ModelChoice::Fem || is_needed(self, model.case, model.estimate)
     }
 
     /// The radiation term has a relative error; a mesh resolves the waves. The term and what is neglected without it leave

@@ -12,7 +12,7 @@ use fem_laws::{plate_slow_contact_error, plate_thickness_error};
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
 use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
-use crate::effects::decision::support::Support;
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, NamedEffect, PlateBending};
 use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
@@ -51,7 +51,7 @@ impl PlateBending {
     }
 
     /// Returns the error of the plate in the model of a scene that computes it; `None` if it is unknown.
-    pub(crate) fn error_of_term(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
+    fn error_of_term(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
         if !Self::is_needed(scene, estimate) {
             return Some(QuantityErrors::ZERO);
         }
@@ -77,12 +77,6 @@ impl PlateBending {
             ],
         };
         Some(bent.change_from(&half_space))
-    }
-
-    /// Returns why the model of a scene cannot compute its plate, if it cannot.
-    pub(crate) fn impossible(scene: &Scene, estimate: &Estimate) -> Option<String> {
-        let fault = Self::check(scene).err()?;
-        Self::is_needed(scene, estimate).then_some(fault.message)
     }
 
     /// Checks that the model of a scene, which effects have transformed, computes its plate.
@@ -192,6 +186,14 @@ impl Effect for PlateBending {
             return Some(NeglectError::NOTHING);
         }
         plate.is_dashpot().then(|| Self::change_by_bending(scene, estimate)).flatten()
+    }
+
+    /// Every model has the error of its plate theory, and nothing without a plate.
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        let fault = Self::check(model.own).err();
+        let fault = fault.filter(|_| Self::is_needed(model.own, model.estimate));
+        let error = Self::error_of_term(model.own, model.estimate);
+        Adequacy { error, impossible: fault.map(|fault| fault.message), ..Adequacy::FULL }
     }
 
     /// All models leave out that a plate stretches as it bends. A model with a plate as a dashpot has the error of the fit to elements that includes its finite thickness; without it that is

@@ -3,12 +3,12 @@
 //!
 //! Decided by the approach speed over the shear wave speed.
 
-use fem_case::{Body, Scene};
+use fem_case::{Body, ModelChoice, Scene};
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::support::Support;
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, PartnerWaves, Vibration};
 use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
@@ -63,6 +63,19 @@ impl Effect for Vibration {
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
         let loss = loss_by_inertia(scene, estimate) + RINGING_LOSS * ringing;
         Some(NeglectError { restitution: Some((loss * relaxed).min(1.0)), ..lengths })
+    }
+
+    /// A result with too few modes advises more modes or explicit elements ([`Vibration::warnings_of_speed`]).
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        let advice = match model.own.model() {
+            ModelChoice::Condensed(options) => {
+                let is_few = Self::needs_modes(model.estimate, options.vibration_modes);
+                let few = is_few.then_some("lacks vibration, which matters");
+                Self::beyond_modes(model.estimate).or(few).map(str::to_string)
+            }
+            _ => None,
+        };
+        Adequacy { advice, ..model.with_or_without(self) }
     }
 
     /// The neglect error, with a margin on the loss.
@@ -138,13 +151,6 @@ impl Vibration {
 
     fn needs_modes(estimate: &Estimate, n_asked: usize) -> bool {
         estimate.effective_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES
-    }
-
-    /// Returns why a result with this number of modes would advise more modes or explicit elements
-    /// ([`Vibration::warnings_of_speed`]), if it would.
-    pub(crate) fn advises_another(estimate: &Estimate, n_asked: usize) -> Option<&'static str> {
-        let few = Self::needs_modes(estimate, n_asked).then_some("lacks vibration, which matters");
-        Self::beyond_modes(estimate).or(few)
     }
 
     /// Returns the models with elements that are suitable: condensed bodies only if modes resolve the inertia.

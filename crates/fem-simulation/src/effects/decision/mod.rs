@@ -12,7 +12,7 @@ use fem_collision::Collision;
 use self::neglect_error::{EffectStatus, NeglectError};
 use self::relevance::Relevance;
 use self::simplified_scene::TransformedScene;
-use self::support::Support;
+use self::support::{Adequacy, ConsideredModel, Support};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
@@ -198,6 +198,16 @@ pub trait Effect: NamedEffect {
             None if is_needed(self, scene, estimate) => QuantityErrors::default(),
             None => QuantityErrors::ZERO,
         }
+    }
+
+    /// Returns how well a model computes the effect, for an effect by which models differ.
+    fn adequacy(&self, _: &ConsideredModel) -> Adequacy {
+        Adequacy::FULL
+    }
+
+    /// Returns whether a model that always includes the effect shows it although the case switches it off.
+    fn is_never_off(&self, model: &ConsideredModel) -> bool {
+        is_needed(self, model.case, model.estimate)
     }
 
     /// Returns whether the effect takes energy and makes the contact softer, so that results without it are bounds from a

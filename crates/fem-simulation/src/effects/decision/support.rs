@@ -1,8 +1,13 @@
-//! A model's support for an effect, combined with its relevance.
+//! A model's support for an effect, combined with its relevance, and its adequacy in a choice between models.
 
-use fem_case::Switch;
+use fem_case::{Scene, Switch};
+use fem_collision::QuantityOfInterest;
 
+use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::{Effect, is_needed};
+use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 
 /// A model's support for an effect.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,6 +84,98 @@ impl Support {
                 let warnings = warning.into_iter().collect();
                 (false, joined([&number, &if_not_needed, ""]), warnings)
             }
+        }
+    }
+}
+
+/// A model that a case may choose.
+pub struct ConsideredModel<'a> {
+    /// The scene of the case, which leaves its model open.
+    pub case: &'a Scene,
+    /// The same scene with the model.
+    pub own: &'a Scene,
+    /// Closed-form estimate of the collision.
+    pub estimate: &'a Estimate,
+    /// The model's support for an effect.
+    pub support: &'a dyn Fn(&dyn Effect) -> Option<Support>,
+}
+
+/// The adequacy of a model for one effect of a scene.
+#[derive(Clone, Debug)]
+pub struct Adequacy {
+    /// Error of the model's own term, or by the lack of the effect; `None` if it cannot be estimated.
+    pub error: Option<QuantityErrors>,
+    /// Whether the error is due to the lack of the effect, or to a term that stands for it.
+    pub is_lack: bool,
+    /// Why the model cannot compute the scene.
+    pub impossible: Option<String>,
+    /// Why a result of the model would come with the advice to use another one.
+    pub advice: Option<String>,
+}
+
+impl Adequacy {
+    /// The adequacy for an effect that the model computes without an error, or by which no models differ.
+    pub const FULL: Self =
+        Self { error: Some(QuantityErrors::ZERO), is_lack: false, impossible: None, advice: None };
+}
+
+impl ConsideredModel<'_> {
+    /// Returns whether the model lacks an effect, and not if it has the effect without a decision.
+    pub(crate) fn lacks(&self, effect: &dyn Effect) -> bool {
+        let support = (self.support)(effect);
+        matches!(support, Some(Support::Lacks | Support::Is { active: false, .. }))
+    }
+
+    /// Returns the adequacy of a model that has an effect without an error, or lacks it.
+    pub(in crate::effects) fn with_or_without(&self, effect: &dyn Effect) -> Adequacy {
+        if !self.lacks(effect) {
+            return Adequacy::FULL;
+        }
+        Adequacy { error: self.error_without(effect), is_lack: true, ..Adequacy::FULL }
+    }
+
+    /// Returns the model-form error by a neglected effect, `None` if the effect is called for and its size cannot be
+    /// estimated.
+    pub(in crate::effects) fn error_without(&self, effect: &dyn Effect) -> Option<QuantityErrors> {
+        self.error_by(effect, |neglect_error| {
+            let status = EffectStatus { is_lacking: true, neglect_error: Some(neglect_error) };
+            effect.model_form_error(self.case, self.estimate, &status)
+        })
+    }
+
+    /// Returns the same with the error that follows from the neglect error.
+    pub(in crate::effects) fn error_by(
+        &self,
+        effect: &dyn Effect,
+        error: impl Fn(NeglectError) -> QuantityErrors,
+    ) -> Option<QuantityErrors> {
+        let error = match effect.neglect_error(self.case, self.estimate) {
+            None if is_needed(effect, self.case, self.estimate) => return None,
+            None => return Some(QuantityErrors::ZERO),
+            Some(neglect_error) => error(neglect_error),
+        };
+        // A contact that does not end has no contact time.
+        let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
+            .into_iter()
+            .all(|quantity| error.size(quantity).is_some());
+        is_known.then(|| error.unknown_as_zero())
+    }
+
+    /// Returns whether the model does otherwise than the case's switch says for an effect.
+    pub(crate) fn disobeys(&self, effect: &dyn Effect) -> bool {
+        let switch = effect.switch(self.case.effects());
+        // A switch that transforms the scene is obeyed by any model.
+        let is_open = matches!(switch, None | Some(Switch::Auto));
+        let transforms =
+            || effect.transform(self.case, self.estimate).is_ok_and(|scene| scene.is_some());
+        if is_open || transforms() {
+            return false;
+        }
+        match (switch, (self.support)(effect)) {
+            (Some(Switch::On), support) => support.is_none() || self.lacks(effect),
+            (_, Some(Support::Is { active, .. })) => active,
+            (_, Some(Support::Inherent { .. })) => effect.is_never_off(self),
+            _ => false,
         }
     }
 }

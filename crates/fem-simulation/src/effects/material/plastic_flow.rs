@@ -14,7 +14,7 @@ use fem_material::{FlowRule, Material};
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
 use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
-use crate::effects::decision::support::Support;
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, NamedEffect, PlasticFlow};
 use crate::estimate::Estimate;
 use crate::estimate::plastic_flow::{first_yield, law_error, on_plate};
@@ -215,6 +215,14 @@ impl Effect for PlasticFlow {
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let (_, first) = first_yield(scene, &estimate.hertz)?;
         Some(NeglectError::of_changes(estimate, first.change()))
+    }
+
+    /// Flow that no model computes makes no difference between them.
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        match Self::of_elements(model.case, model.estimate) {
+            Support::Lacks => Adequacy::FULL,
+            _ => model.with_or_without(self),
+        }
     }
 
     /// Without flow all quantities are bounds. A contact law that dents has an error of its own.

@@ -10,7 +10,7 @@ use fem_material::Material;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
-use crate::effects::decision::support::Support;
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
 use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
@@ -28,6 +28,10 @@ const MIN_FOLDED: f64 = 1e-7;
 const LOSS_TOLERANCE: f64 = 1e-5;
 
 impl Effect for Viscoelasticity {
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        model.with_or_without(self)
+    }
+
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let relaxing = relaxing(scene);
         if relaxing.is_empty() {

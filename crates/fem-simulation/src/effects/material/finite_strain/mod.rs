@@ -33,7 +33,7 @@ use self::departure::Departure;
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::support::Support;
+use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, FiniteStrain, PartnerWaves};
 use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
@@ -334,6 +334,17 @@ impl Effect for FiniteStrain {
             .with(QuantityOfInterest::MaxContactRadius, radius)
             .with(QuantityOfInterest::PeakPressure, peak_pressure * sizes.peak_pressure)
             .checked()
+    }
+
+    /// Small strain is no difference between models where elements use it, too, and the spread over possible laws is the same
+    /// in all models.
+    fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
+        let estimate = model.estimate;
+        if !Self::is_on(model.case, estimate) || !model.lacks(self) {
+            return Adequacy::FULL;
+        }
+        let error = model.error_by(self, |change| change.of_all_quantities(estimate));
+        Adequacy { error, is_lack: true, ..Adequacy::FULL }
     }
 
     /// Warns of the strains that occurred; the estimate warns before the run.
