@@ -287,7 +287,7 @@ fn auto_takes_a_model_with_the_plate() {
         let simulation = simulation_of(BALL, &set);
         simulation.considered().iter().find(|one| one.chosen).unwrap().model
     };
-    assert_eq!(chosen(&["accuracy.tolerance='2 %'"]), "hertz = { finite_size = true }");
+    assert_eq!(chosen(&["accuracy.tolerance='1.5 %'"]), "hertz = { finite_size = true }");
     assert_eq!(chosen(&["accuracy.tolerance='5 %'"]), "hertz = {}");
     // The plate is stiffer than a half-space at the contact, by 0.8 % of the force.
     assert_eq!(chosen(&[]), "fem = {}");
