@@ -157,7 +157,7 @@ impl ItemProgress {
         }
     }
 
-    /// Whether the user or [`Self::abort`] has asked to end.
+    /// Whether the user, or a failure elsewhere, has asked to end.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.is_requested() || self.is_aborted.load(Ordering::Relaxed)
     }

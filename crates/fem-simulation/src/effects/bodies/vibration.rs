@@ -65,7 +65,7 @@ impl Effect for Vibration {
         Some(NeglectError { restitution: Some((loss * relaxed).min(1.0)), ..lengths })
     }
 
-    /// A result with too few modes advises more modes or explicit elements ([`Vibration::warnings_of_speed`]).
+    /// A result with too few modes advises more modes or explicit elements (`Vibration::warnings_of_speed`).
     fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
         let advice = match model.own.model() {
             ModelChoice::Condensed(options) => {
