@@ -351,8 +351,9 @@ fn a_signal_ends_a_check_at_once() {
     let mut child = place.command("sweep sweep.toml").spawn().unwrap();
     std::thread::sleep(Duration::from_secs(1));
     assert!(child.try_wait().unwrap().is_none());
-    kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGINT).unwrap();
-    assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGINT as i32));
+    // Processes in the background of a script ignore SIGINT.
+    kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGTERM).unwrap();
+    assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGTERM as i32));
     assert!(!place.path("runs").exists());
 }
 
