@@ -117,7 +117,7 @@ impl<'a> PlateImpact<'a> {
     /// than a half-space; 0 for a bonded plate.
     pub fn local_stiffening(&self, estimate: &Estimate) -> f64 {
         let Some(moduli) = self.body.material().map(Material::instantaneous) else { return 0.0 };
-        let own = moduli.youngs_modulus() / (1.0 - moduli.poissons_ratio().powi(2));
+        let own = moduli.plane_strain_modulus();
         let sizes = &estimate.effective.sizes;
         match self.plate.support {
             PlateSupport::Free => {

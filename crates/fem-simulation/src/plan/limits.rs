@@ -47,6 +47,12 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
     state_memory(plan, elements).saturating_add(fields)
 }
 
+/// Checks that explicit elements can have meshes of a scene, whichever model it names.
+pub(crate) fn check_size_of_elements(scene: &Scene) -> Result<(), Rejection> {
+    let scene = scene.clone().with_model(ModelChoice::Fem);
+    check_size(&scene, &Plan::of(&scene)?)
+}
+
 /// Checks the size of meshes before they are generated.
 pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
     let (mut elements, mut branches) = (0, 0);

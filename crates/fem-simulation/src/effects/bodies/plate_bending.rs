@@ -17,8 +17,7 @@ use crate::effects::decision::{Effect, NamedEffect, PlateBending};
 use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::{LARGE_DEFLECTION, PlateImpact, PlateRegime, THIN};
-use crate::plan::Plan;
-use crate::plan::limits::check_size;
+use crate::plan::limits::check_size_of_elements;
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
@@ -95,10 +94,7 @@ impl PlateBending {
                 let message = format!(
                     "model {model} cannot compute a plate that is bonded: a rigid base gives its waves back within the contact"
                 );
-                let of_elements = scene.clone().with_model(ModelChoice::Fem);
-                let has_mesh =
-                    Plan::of(&of_elements).and_then(|plan| check_size(&of_elements, &plan));
-                let help = match has_mesh {
+                let help = match check_size_of_elements(scene) {
                     Ok(()) => "use model fem, or auto, which chooses it".to_string(),
                     Err(rejection) => rejection.help.unwrap_or(rejection.message),
                 };

@@ -7,7 +7,7 @@
 
 use fem_case::engineering::show;
 use fem_case::library::LikeMaterial;
-use fem_case::{Body, MAX_MODULUS_OF_POLYMERS, ModelChoice, Scene, Switch};
+use fem_case::{Body, MAX_MODULUS_OF_POLYMERS, Scene, Switch};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::{FlowRule, Material};
 
@@ -18,8 +18,7 @@ use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, NamedEffect, PlasticFlow};
 use crate::estimate::Estimate;
 use crate::estimate::plastic_flow::{first_yield, law_error, on_plate};
-use crate::plan::Plan;
-use crate::plan::limits::check_size;
+use crate::plan::limits::check_size_of_elements;
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
@@ -122,14 +121,11 @@ impl<'a> Onset<'a> {
                 format!("{yields}, and a hyperelastic material does not flow: remove {key}")
             }
             _ => {
-                let of_elements = scene.clone().with_model(ModelChoice::Fem);
                 let is_narrow = scene
                     .bodies()
                     .iter()
                     .any(|it| it.plate().is_some_and(|plate| plate.diameter.is_some()));
-                let has_mesh = !is_narrow
-                    || Plan::of(&of_elements)
-                        .is_ok_and(|plan| check_size(&of_elements, &plan).is_ok());
+                let has_mesh = !is_narrow || check_size_of_elements(scene).is_ok();
                 let advice = if has_mesh { "model fem, or law" } else { "law" };
                 let model = scene.model().name();
                 format!("{yields}, and model {model} is elastic: use {advice} mean_pressure")
