@@ -1,6 +1,6 @@
 //! The constants of the error estimate.
 //!
-//! `fem-run validate error_bars` calibrates them: it draws random scenes, judges their error bars, and tabulates on its
+//! `fem-validate error_bars` calibrates them: it draws random scenes, judges their error bars, and tabulates on its
 //! page, for each row and quantity below, the edge constant in use and the one with which 98 % of the bars hold. The
 //! values below were fitted on the scenes in `validation/error_bars/old_and_new.csv`. Arrays are in the order of
 //! [`QuantityOfInterest::ALL`](fem_collision::QuantityOfInterest::ALL): restitution, contact time, peak force, approach,
@@ -40,7 +40,7 @@ pub(super) const EXPLICIT: Calibration = Calibration {
 };
 
 /// Constants for explicit elements at large strain or with waves, which have a coarser run of their own. Elements that are
-/// flattened at the contact scatter more; the 98 scenes of the seeds 3 and 11 to 16 of `fem-run validate soft_random` gave
+/// flattened at the contact scatter more; the 98 scenes of the seeds 3 and 11 to 16 of `fem-validate soft_random` gave
 /// the constants, with which 94 of them hold in all quantities.
 pub(super) const COARSER_RUN: Calibration = Calibration {
     name: "COARSER_RUN",
