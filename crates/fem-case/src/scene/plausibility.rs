@@ -7,9 +7,9 @@ use crate::case::Case;
 use crate::engineering::{number, show};
 use crate::error::CaseError;
 use crate::library::{self, MeasuredRestitution};
-use crate::scene::Scene;
 use crate::scene::body::Body;
 use crate::scene::model::ModelChoice;
+use crate::scene::{Scene, UncertainInput};
 use crate::schema::CaseFile;
 use crate::source::toml_syntax::{join, quote_key};
 
@@ -91,9 +91,16 @@ impl Scene {
             .then(|| format!("spheres of {} (bare numbers are in metres)", sizes.join(" and ")))
     }
 
-    /// Returns one warning per number that is so unusual that a unit was probably forgotten.
+    /// Returns one warning per number or uncertainty that is so unusual that a unit was probably forgotten.
     pub fn implausible_numbers(&self) -> Vec<String> {
-        (0..2).flat_map(|side| self.implausible(side)).map(|found| found.message).collect()
+        let numbers = (0..2).flat_map(|side| self.implausible(side)).map(|found| found.message);
+        let is_large =
+            |input: &&UncertainInput| input.value != 0.0 && input.uncertainty > input.value.abs();
+        let spreads = self.inputs.iter().filter(is_large).map(|input| {
+            let share = number(100.0 * input.uncertainty / input.value.abs(), 3);
+            format!("the uncertainty of {} is {share} % of its value: check its unit", input.key)
+        });
+        numbers.chain(spreads).collect()
     }
 
     /// Returns the implausible numbers of a body.

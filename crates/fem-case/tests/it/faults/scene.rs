@@ -148,14 +148,23 @@ fn implausible_numbers_cause_warnings() {
         ("\"2390 kg/m^3\"", "2.39", "density of striker is 2.39"),
         ("\"2390 kg/m^3\"", "\"26 g/cm^3\"", "density of"),
         ("\"63 GPa\"", "63", "Young's modulus of striker is"),
+        (
+            "\"63 GPa\"",
+            "\"63 ± 2000 GPa\"",
+            "youngs_modulus is 3170 % of its value: check its unit",
+        ),
+        ("\"22.2 mm\"", "\"22.2 mm ± 0.1 m\"", "diameter is 450 % of its value: check its unit"),
     ] {
         let found = odd(part, replacement);
         assert!(found.iter().any(|text| text.contains(warning)), "{replacement}: {found:?}");
     }
     // Rare values that are plausible.
-    for (part, replacement) in
-        [("\"22.2 mm\"", "1.5"), ("\"2390 kg/m^3\"", "11"), ("\"63 GPa\"", "\"1 kPa\"")]
-    {
+    for (part, replacement) in [
+        ("\"22.2 mm\"", "1.5"),
+        ("\"2390 kg/m^3\"", "11"),
+        ("\"63 GPa\"", "\"1 kPa\""),
+        ("\"63 GPa\"", "\"63 ± 62 GPa\""),
+    ] {
         assert_eq!(odd(part, replacement), [""; 0], "{replacement}");
     }
 }
