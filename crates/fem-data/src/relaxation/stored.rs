@@ -177,6 +177,12 @@ impl FoundRelaxation {
             true => format!(" ± {}", number(unit.scaled(own), 2)),
             false => String::new(),
         };
+        // The glassy modulus and the weights vary together, so that the modulus in the band is known better than both.
+        let note = if uncertainty.is_empty() {
+            ""
+        } else {
+            " # ± of the modulus at the highest rate measured"
+        };
         let modulus = format!("{}{uncertainty} {}", number(unit.scaled(whole), 6), unit.symbol());
         let given = |key: &str, value: Option<String>, example: &str| match value {
             Some(value) => format!("{key} = {value}\n"),
@@ -190,7 +196,7 @@ impl FoundRelaxation {
             }
         };
         format!(
-            "[material.{}]\n{}{} = \"{modulus}\"\n{other}",
+            "[material.{}]\n{}{} = \"{modulus}\"{note}\n{other}",
             toml_key(name),
             given("density", density, "\"1200 kg/m^3\""),
             self.modulus().key(),
