@@ -1,8 +1,10 @@
 //! The contact law of a case's bodies, and its values from `[model]` and from the caller.
 
+use fem_case::engineering::show;
 use fem_case::{Body, Case, ModelChoice, PlateSupport, Scene};
 use fem_data::estimate::{FitError, Model, Point, Problem};
 use fem_laws::{EndRule, FreePlate, KeyNeed, LawFamily, LawInput, LawParameter, ParameterRole};
+use fem_material::{FlowRule, Material};
 
 use super::law_fault::LawFault;
 use fem_data::estimate::{check_value, find_parameter, loss_parameter};
@@ -69,6 +71,31 @@ pub fn family_of(scene: &Scene) -> Option<LawFamily> {
         ModelChoice::Law { law, .. } => Some(law.family),
         _ => None,
     }
+}
+
+/// Returns the yield strength at the reference rate of `material.NAME.flow.rate`, Pa, which the case's key has, for a strength of a law,
+/// which is at the strain rate of the contact; `None` for a law or for bodies that depend on no rate. The factor between both is that of
+/// the case's own strength and speed.
+pub fn strength_at_reference_rate(scene: &Scene, family: LawFamily, strength: f64) -> Option<f64> {
+    let index = family.parameters().iter().position(|it| it.key == "yield_strength")?;
+    let at_contact =
+        Reduced::parameters_of(scene, &LawInput { family, values: Vec::new() }).ok()?;
+    let depends = |body: &&Body| {
+        let rule = body.material().and_then(Material::flow);
+        rule.and_then(FlowRule::rate).is_some_and(|rate| rate.coefficient > 0.0)
+    };
+    let own = scene.bodies().iter().filter(depends).filter_map(Body::yield_strength);
+    let own = own.fold(f64::INFINITY, f64::min);
+    let is_other = own.is_finite() && at_contact[index] > own;
+    is_other.then(|| strength * own / at_contact[index])
+}
+
+/// Returns the sentence about that strength, Pa.
+pub fn strength_words(at_reference_rate: f64) -> String {
+    format!(
+        "yield_strength is at the strain rate of the contact; at the reference rate it is {}: give that to material.NAME.flow",
+        show(at_reference_rate, "Pa")
+    )
 }
 
 /// A law of a case and the known values of its parameters.

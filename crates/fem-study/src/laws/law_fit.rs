@@ -8,7 +8,7 @@ use fem_data::estimate::{
 };
 use fem_laws::{LawFamily, ParameterRole};
 
-use super::chosen_law::ChosenLaw;
+use super::chosen_law::{ChosenLaw, strength_at_reference_rate, strength_words};
 use super::law_fault::LawFault;
 use super::law_ranking::LawRanking;
 use fem_data::estimate::loss_parameter;
@@ -45,6 +45,8 @@ pub struct LawFit<'a> {
     /// Parts of uncertain inputs of the case in the errors of θ of the free parameters, which are logarithms of scale factors and plain
     /// numbers.
     pub inputs: Vec<InputPart>,
+    /// The fitted yield strength at the reference rate of the case's flow rule, Pa, if that is another.
+    pub strength_at_reference_rate: Option<f64>,
 }
 
 impl<'a> LawFit<'a> {
@@ -71,12 +73,26 @@ impl<'a> LawFit<'a> {
     ) -> Result<Self, LawFault> {
         let fit = problem.fit(confidence)?;
         let (profile, compared, inputs) = (None, Vec::new(), Vec::new());
-        Ok(Self { data, problem, fit, profile, compared, confidence, inputs })
+        Ok(Self {
+            data,
+            problem,
+            fit,
+            profile,
+            compared,
+            confidence,
+            inputs,
+            strength_at_reference_rate: None,
+        })
     }
 
     /// Adds the uncertain inputs of the case to standard errors and intervals, by fitting again with each; `law` is that of the problem.
     pub fn with_inputs(mut self, case: &Case, law: &ChosenLaw) -> Self {
         let problem = &self.problem;
+        let strength = self.fit.estimates.iter().find(|estimate| estimate.key == "yield_strength");
+        self.strength_at_reference_rate = strength.and_then(|estimate| {
+            let strength = self.fit.values[estimate.index];
+            strength_at_reference_rate(case.scene(), law.family(), strength)
+        });
         let own = problem.theta_of(&self.fit.values);
         let keys: Vec<&str> = self.fit.estimates.iter().map(|estimate| estimate.key).collect();
         let refit = |case: &Case| {
@@ -231,6 +247,7 @@ impl<'a> LawFit<'a> {
         for estimate in fit.estimates.iter().filter(|estimate| estimate.is_at_bound) {
             warnings.push(format!("{} is at its bound: the best value lies beyond", estimate.key));
         }
+        warnings.extend(self.strength_at_reference_rate.map(strength_words));
         if fit.degrees_of_freedom == 0 {
             let what = "there are as many data as parameters: the law passes through them, which does \
                         not show whether it is right";

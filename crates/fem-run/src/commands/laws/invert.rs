@@ -2,7 +2,9 @@
 
 use fem::fit::cradle::Measured;
 use fem::fit::{FitError, InputPart};
-use fem::laws::{LawFault, LawInversion, family_of, needs_more};
+use fem::laws::{
+    LawFault, LawInversion, family_of, needs_more, strength_at_reference_rate, strength_words,
+};
 use fem_case::Case;
 use fem_case::engineering::{number, show};
 use fem_laws::LawFamily;
@@ -54,11 +56,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
-    let (mut rows, mut parts) = (Vec::new(), Vec::new());
+    let (mut rows, mut parts, mut notes) = (Vec::new(), Vec::new(), String::new());
     for (family, answer) in &answers {
         match answer {
             Ok(solved) => {
                 rows.extend(lines(solved));
+                if solved.parameter().key == "yield_strength" {
+                    let at_reference =
+                        |(value, _)| strength_at_reference_rate(case.scene(), *family, value);
+                    let found = solved.solutions().into_iter().filter_map(at_reference);
+                    notes.extend(found.map(|it| format!("\n{}\n", strength_words(it))));
+                }
                 parts.extend(parts_of(solved));
             }
             Err(reason) => {
@@ -74,7 +82,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     standard_output::print(&format!(
-        "restitution {} at {}\n\n{}{parts}",
+        "restitution {} at {}\n\n{}{parts}{notes}",
         arguments.restitution.value,
         show(speed, "m/s"),
         headed("law|parameter|>value|>SI|>contact time", rows)
@@ -90,6 +98,10 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
             Ok(solved) => {
                 let all = solved.solutions().into_iter().enumerate();
                 solutions.extend(all.map(|(k, (value, contact_time))| {
+                    let of_key = solved.parameter().key == "yield_strength";
+                    let at_reference = of_key
+                        .then(|| strength_at_reference_rate(case.scene(), family, value))
+                        .flatten();
                     json!({
                         "law": family.name(),
                         "parameter": solved.parameter().key,
@@ -97,6 +109,7 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
                         "standard_error": solved.standard_error(k),
                         "inputs": solved.input_numbers(k),
                         "contact_time_s": contact_time,
+                        "strength_at_reference_rate_pa": at_reference,
                     })
                 }));
             }

@@ -142,6 +142,49 @@ fn the_plate_is_in_the_export_of_bodies_that_flow() {
     }
 }
 
+/// A strength that is found from a restitution is at the strain rate of the contact. The one at the reference rate of the flow rule, in a
+/// case, gives that restitution, also if the case began with another.
+#[test]
+fn a_strength_that_is_found_goes_into_the_case_at_the_reference_rate() {
+    let text = |strength: f64| {
+        format!(
+            r#"
+[material.steel]
+density = "7800 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+flow = {{ yield_strength = {strength:?}, hardening = "perfect", rate = {{ johnson_cook = {{ c = 0.05, reference_rate = "1 1/s" }} }} }}
+[[body]]
+name = "anvil"
+wall = {{}}
+[[body]]
+name = "ball"
+sphere = {{ diameter = "10 mm" }}
+material = "steel"
+approach_speed = "2 m/s"
+[model]
+law = {{ mean_pressure = {{}} }}
+"#
+        )
+    };
+    let restitution = |strength: f64| {
+        let place = Place::with(&text(strength));
+        place.succeed("case.toml --out law --quiet");
+        place.json("law/summary.json")["restitution"].as_f64().unwrap()
+    };
+    let e = restitution(300e6);
+    for start in [300e6, 400e6] {
+        let place = Place::with(&text(start));
+        let words = format!("invert case.toml --law mean_pressure --restitution {e}");
+        let ran = place.succeed(words.as_str());
+        ran.prints("yield_strength is at the strain rate of the contact");
+        let (_, found) = ran.stdout.split_once("at the reference rate it is ").unwrap();
+        let strength: f64 = found.split(' ').next().unwrap().parse().unwrap();
+        let again = restitution(1e6 * strength);
+        assert!((again - e).abs() < 1e-3, "{start}: {strength} {again} {e}");
+    }
+}
+
 /// The strength of a block of aluminium under a ball of alumina that stays elastic, from the restitutions of a run of the law with the
 /// strength of the material; and that of a material that hardens by a line.
 #[test]
