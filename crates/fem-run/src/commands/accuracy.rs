@@ -90,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         output.write("accuracy.svg", svg);
     }
     output.write("accuracy.md", page);
-    output.publish(&json(&result), || {
+    output.publish(&json(&result), |_| {
         let mut text = format!("{}\n", one_line(result.title));
         for part in terminal_tables(&result) {
             let mut alignment = vec![Right; part.rows[0].len()];

@@ -133,10 +133,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("measure.csv", &IMPACT_COLUMNS, rows);
     output.write("measure.svg", record_figure(&record, &rig));
     standard_output::warn(record.warnings().iter().cloned());
-    let table = shown(&output.place().join("measure.csv"));
     let numbers = record.numbers(&path.display().to_string(), &rig);
-    output.publish(&numbers, || {
-        let next = format!("\nFit a law to it: fem-run fit CASE.toml --data {table}\n");
+    output.publish(&numbers, |kept| {
+        let next = kept.path("measure.csv").map_or(String::new(), |table| {
+            format!("\nFit a law to it: fem-run fit CASE.toml --data {}\n", shown(&table))
+        });
         answer(&record) + &impacts_table(record.impacts()) + &details(&record, &rig) + &next
     })
 }

@@ -7,8 +7,8 @@ use fem_mesh::SphereMesh;
 use fem_vtk::{VtuFile, VtuWriter};
 
 use crate::arguments::case::CaseArguments;
-use crate::text::standard_output;
-use crate::text::{Failure, mesh_table};
+use crate::result_folder::whole_file::{MadeFolders, unwritten};
+use crate::text::{Failure, mesh_table, shown, standard_output};
 
 /// Field data that identifies a file of this command.
 const MARK: &str = "fem-run mesh";
@@ -44,12 +44,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for (path, _) in &files {
         check_place(path)?;
     }
-    std::fs::create_dir_all(&out).map_err(|error| {
-        Failure::bad_input(format!("--out {}: {error}", out.display()))
-            .with_help("name a folder in a place that you may write to")
-    })?;
-    for (path, mesh) in &files {
-        write_mesh(path, mesh)?;
+    let place = "name a folder in a place that you may write to with --out";
+    let _made = MadeFolders::above(&out.join("mesh"));
+    std::fs::create_dir_all(&out).map_err(|error| unwritten(&shown(&out), &error, place))?;
+    for (k, (path, mesh)) in files.iter().enumerate() {
+        write_mesh(path, mesh).map_err(|error| {
+            let kept: Vec<_> = files[..k].iter().map(|(path, _)| shown(path)).collect();
+            let kept = (k > 0).then(|| format!("kept: {}", kept.join(", ")));
+            unwritten(&shown(path), &error, place).with_help_if(kept)
+        })?;
     }
     if arguments.quiet {
         return Ok(());
@@ -69,10 +72,7 @@ fn check_place(path: &Path) -> Result<(), Failure> {
     Err(Failure::bad_input(message).with_help("move it away, or name another folder with --out"))
 }
 
-fn write_mesh(path: &Path, mesh: &SphereMesh) -> Result<(), Failure> {
+fn write_mesh(path: &Path, mesh: &SphereMesh) -> Result<(), fem_vtk::Error> {
     let points: Vec<[f64; 3]> = mesh.nodes().iter().map(|&[r, y]| [r, y, 0.0]).collect();
-    VtuWriter::new(&points, mesh.quads())
-        .field_data(MARK, 1, &[1_i32])
-        .write(path)
-        .map_err(|error| Failure::bad_input(error.to_string()))
+    VtuWriter::new(&points, mesh.quads()).field_data(MARK, 1, &[1_i32]).write(path)
 }

@@ -116,11 +116,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let rows = found.rows().map(|row| row.into_iter().map(Some).collect::<Vec<_>>());
     output.write_table("relaxation.csv", found.columns(), rows);
     output.write("relaxation.svg", relaxation_figure(&found));
-    let place = shown(&output.place().join(&file)).replace('\\', "/");
     standard_output::warn(found.warnings());
-    output.publish(&found.numbers(), || {
-        let material = arguments.material(&found);
-        let table = format!("\n{material}relaxation = {{ file = \"{place}\" }}\n");
+    output.publish(&found.numbers(), |kept| {
+        let table = kept.path(&file).map_or(String::new(), |path| {
+            let (material, path) = (arguments.material(&found), shown(&path).replace('\\', "/"));
+            format!("\n{material}relaxation = {{ file = \"{path}\" }}\n")
+        });
         answer(&found) + &shifts(&found) + &terms(&found) + &table
     })
 }

@@ -10,7 +10,7 @@ use fem::results::PROGRAM;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::whole_file::{DISK_FULL, OwnedFileKind};
+use super::whole_file::{OwnedFileKind, cause, write_whole};
 use super::{Origin, ResultFolder, ResultPath};
 use crate::text::{Failure, shown, standard_output};
 
@@ -82,8 +82,8 @@ impl OutputArguments {
         let folder = ResultFolder::claim(&place.out, longest_name, origin, self.force)?;
         let files = vec![format!("{command}.json")];
         let (quiet, json) = (self.quiet, self.json);
-        let (copy, missing) = (None, None);
-        Ok(CommandOutput { folder, made_from, place, files, missing, copy, quiet, json })
+        let (main, copy, missing) = (None, None, None);
+        Ok(CommandOutput { folder, made_from, place, files, missing, main, copy, quiet, json })
     }
 }
 
@@ -96,36 +96,32 @@ pub struct CommandOutput {
     files: Vec<String>,
     /// The reason why the first file that is missing could not be written.
     missing: Option<String>,
-    /// A file beside the folder that has the first file after the JSON file too.
+    /// The content of the first file after the JSON file.
+    main: Option<Vec<u8>>,
+    /// A file beside the folder that has it too.
     copy: Option<(OwnedFileKind, PathBuf)>,
     quiet: bool,
     json: bool,
 }
 
 impl CommandOutput {
-    /// Returns the folder that the files will be in.
-    pub fn place(&self) -> &Path {
-        &self.place.out
-    }
-
     /// Writes a file. One that cannot be written is reported by [`CommandOutput::publish`].
     pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) {
-        match self.try_write(name, bytes.as_ref()) {
+        let bytes = bytes.as_ref();
+        self.main.get_or_insert_with(|| bytes.to_vec());
+        match self.try_write(name, bytes) {
             Ok(()) => self.files.push(name.to_string()),
             Err(error) => self.lacks(name, &error),
         }
     }
 
-    /// Writes a file wholly or not at all.
     fn try_write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let path = self.folder.path().join(name);
-        std::fs::write(&path, bytes).inspect_err(|_| {
-            let _ = std::fs::remove_file(path);
-        })
+        let folder = self.folder.path();
+        write_whole(&folder.join(name), folder, bytes)
     }
 
     fn lacks(&mut self, name: &str, error: &io::Error) {
-        self.missing.get_or_insert_with(|| format!("{name} cannot be written: {error}"));
+        self.missing.get_or_insert_with(|| format!("{name} cannot be written: {}", cause(error)));
     }
 
     pub fn write_table(
@@ -143,12 +139,12 @@ impl CommandOutput {
         self.write(name, text);
     }
 
-    /// Writes the numbers, moves all files to their place, and prints the numbers, or `text` and the path of that place. A result that
-    /// lacks files does not replace another one.
+    /// Writes the numbers, moves all files to their place, and prints the numbers, or `text`, which may name files that are kept, and
+    /// the path of that place. A result that lacks files does not replace another one.
     pub fn publish(
         mut self,
         numbers: &impl Serialize,
-        text: impl FnOnce() -> String,
+        text: impl FnOnce(&KeptFiles) -> String,
     ) -> Result<(), Failure> {
         let name = self.files.remove(0);
         let mut numbers = serde_json::to_value(numbers).map_err(|error| unwritten(&name, error))?;
@@ -157,20 +153,16 @@ impl CommandOutput {
         numbers["made_from"] = json!(self.made_from);
         numbers["source"] = json!(self.folder.source());
         let json = self.write_numbers(&name, &mut numbers);
-        let Self { folder, place, files, missing, copy, quiet, json: is_json, .. } = self;
+        let Self { folder, place, files, missing, main, copy, quiet, json: is_json, .. } = self;
         let placed = match files.is_empty() {
             true => Ok(None),
             false => folder.publish(missing.is_none()).map(Some),
         };
-        let copied = match (&placed, copy, files.get(1)) {
-            (Ok(Some(place)), Some((kind, path)), Some(main)) if missing.is_none() => {
-                let bytes = std::fs::read(place.join(main));
-                bytes
-                    .map_err(|error| unwritten(main, error))
-                    .and_then(|it| kind.replace(&path, &it))
-            }
-            _ => Ok(String::new()),
+        let copied = match copy.as_ref().zip(main) {
+            Some(((kind, path), bytes)) => kind.replace(path, &bytes),
+            None => Ok(String::new()),
         };
+        let mut kept = KeptFiles { folder: placed.as_ref().ok().cloned().flatten(), files };
         if is_json {
             standard_output::print(&json)?;
         } else if !quiet {
@@ -179,10 +171,12 @@ impl CommandOutput {
                 Ok(Some(found)) => shown(found) + &place.note(),
                 _ => "not written".to_string(),
             };
-            standard_output::print(&format!("{}\n{copied}Result: {result}\n", text()))?;
+            standard_output::print(&format!("{}\n{copied}Result: {result}\n", text(&kept)))?;
         }
-        placed.and(copied)?;
-        missing.map_or(Ok(()), |missing| Err(incomplete(missing, &files)))
+        placed?;
+        kept.files.extend(copied.is_ok().then(|| copy.map(|(_, path)| shown(&path))).flatten());
+        missing.map_or(Ok(()), |missing| Err(incomplete(missing, &kept.files)))?;
+        copied.map(drop)
     }
 
     /// Writes the file of the numbers, with the names of all files, and returns its text. If there is no room for it, it gets that of
@@ -207,13 +201,33 @@ impl CommandOutput {
     }
 }
 
+/// The files of a result that could be written.
+#[derive(Debug)]
+pub struct KeptFiles {
+    folder: Option<PathBuf>,
+    files: Vec<String>,
+}
+
+impl KeptFiles {
+    /// Returns the folder of the files, if any is kept.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// Returns the path of a file as the user would name it, if it is kept.
+    pub fn path(&self, name: &str) -> Option<PathBuf> {
+        let folder = self.folder.as_ref()?;
+        self.files.iter().any(|file| file == name).then(|| folder.join(name))
+    }
+}
+
 /// Returns the failure of a result that lacks files.
 fn incomplete(missing: String, files: &[String]) -> Failure {
     let kept = match files.is_empty() {
         true => "nothing was kept, and an older result is unchanged".to_string(),
         false => format!("kept: {}", files.join(", ")),
     };
-    Failure::failed(missing).with_help(format!("{kept}; {DISK_FULL}"))
+    Failure::failed(missing).with_help(kept)
 }
 
 fn unwritten(name: &str, error: impl std::fmt::Display) -> Failure {

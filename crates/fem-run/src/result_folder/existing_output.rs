@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Deserialize;
 
@@ -132,9 +132,4 @@ pub fn restart_head(folder: &Path) -> Option<CheckpointHead> {
     let file = File::open(folder.join(RESTART_FILE)).ok()?;
     file.take(HEAD_BYTES).read_to_end(&mut bytes).ok()?;
     checkpoint_head(&bytes).ok()
-}
-
-pub fn missing_parents(path: &Path) -> Vec<PathBuf> {
-    let is_missing = |folder: &&Path| folder.symlink_metadata().is_err();
-    path.ancestors().skip(1).take_while(is_missing).map(Path::to_path_buf).collect()
 }

@@ -25,9 +25,8 @@ use std::path::{Path, PathBuf};
 use crate::text::{Failure, shown};
 use existing_output::{ExistingOutput, ExistingResult};
 use hidden_folder::HiddenFolder;
-use whole_file::write_lasting;
+use whole_file::{MadeFolders, unwritten, write_lasting};
 
-pub use existing_output::missing_parents;
 pub use hidden_folder::recover_leftovers;
 pub use origin::Origin;
 
@@ -98,8 +97,8 @@ pub struct ResultFolder {
     /// What the result to come is made from; without it, it may replace any.
     origin: Option<Origin>,
     force: bool,
-    /// Parent folders that were created, the innermost first.
-    made: Vec<PathBuf>,
+    /// Dropped after the hidden folder.
+    _made: MadeFolders,
 }
 
 impl ResultFolder {
@@ -127,14 +126,14 @@ impl ResultFolder {
         let target = resolve(out)?;
         check_place(out, &target, |old| allows(origin.as_ref(), force, old, &target))?;
         let cannot = |error: io::Error| {
-            let message = format!("--out {}: a result cannot be written here: {error}", shown(out));
-            Failure::bad_input(message).with_help("name a folder in a place that you may write to")
+            let what = format!("--out {}: a result", shown(out));
+            unwritten(&what, &error, "name a folder in a place that you may write to")
         };
         let parent = target.parent().unwrap_or(Path::new("/")).to_path_buf();
-        let made = missing_parents(&target);
+        let made = MadeFolders::above(&target);
         // A folder beside the target of a link is not beside the link.
         let shown = if out.is_symlink() { target.clone() } else { out.to_path_buf() };
-        let mut folder = Self { shown, target, hidden: None, origin, force, made };
+        let mut folder = Self { shown, target, hidden: None, origin, force, _made: made };
         fs::create_dir_all(&parent).map_err(cannot)?;
         // The system rejects an impossible name only now.
         ExistingOutput::at(&folder.target).map_err(cannot)?;
@@ -163,7 +162,6 @@ impl ResultFolder {
     /// written next to an old one.
     pub fn publish(mut self, is_whole: bool) -> Result<PathBuf, Failure> {
         let Some(mut hidden) = self.hidden.take() else { return Ok(self.shown.clone()) };
-        self.made.clear();
         let may_replace = |old: &ExistingResult| {
             is_whole && allows(self.origin.as_ref(), self.force, old, &self.target)
         };
@@ -188,16 +186,6 @@ impl ResultFolder {
     /// Returns the source of the result to come ([`Origin::source`]).
     pub fn source(&self) -> Option<String> {
         self.origin.as_ref().and_then(|origin| origin.source(&self.target))
-    }
-}
-
-impl Drop for ResultFolder {
-    fn drop(&mut self) {
-        drop(self.hidden.take());
-        for folder in &self.made {
-            // Removes a folder only if it is empty.
-            let _ = fs::remove_dir(folder);
-        }
     }
 }
 

@@ -9,6 +9,7 @@ use fem::{Identity, RestartState, Simulation, Stepper, checkpoint, restart_state
 use fem_case::engineering::show;
 
 use super::ResultFolder;
+use super::whole_file::{cause, write_whole};
 use crate::text::{Failure, shown};
 
 pub use super::existing_output::RESTART_FILE;
@@ -102,14 +103,16 @@ impl<'a> RestartWriter<'a> {
         {
             // Warn once: the run itself is unaffected, and the next file may be written again.
             self.has_failed = true;
-            let _ = writeln!(stderr(), "warning: {RESTART_FILE} cannot be written: {error}");
+            let _ =
+                writeln!(stderr(), "warning: {RESTART_FILE} cannot be written: {}", cause(&error));
         }
     }
 
     /// Writes the file of an interrupted run into its result; returns whether there is one.
     pub fn leave(&self, simulation: &Simulation, stepper: &dyn Stepper) -> bool {
         let Some(state) = simulation.restart_state_of(stepper) else { return false };
-        let path = self.folder.path().join(RESTART_FILE);
-        fs::write(path, checkpoint(self.identity, &state)).is_ok()
+        let folder = self.folder.path();
+        let bytes = checkpoint(self.identity, &state);
+        write_whole(&folder.join(RESTART_FILE), folder, &bytes).is_ok()
     }
 }

@@ -3,8 +3,8 @@
 //! On a full disk the snapshots are given up first, then the history, then the summary. Space for the summary
 //! is reserved before everything else, since it is written last, when all files are known.
 
-use std::fs::{self, File};
-use std::io::BufWriter;
+use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 
 use fem::results::{
@@ -18,7 +18,7 @@ use fem_collision::{Collision, SnapshotInstant};
 use fem_report::report::{REPORT_FILE, StoredResult, report_page};
 use fem_report::section_view::{DrawnField, contour_of_frames, half_width, mirrored, sections};
 
-use super::whole_file::{DISK_FULL, write_whole};
+use super::whole_file::{cause, write_streamed, write_whole};
 use super::{Origin, ResultFolder};
 use crate::{progress::stopwatch::Stopwatch, text::Failure};
 
@@ -102,7 +102,7 @@ pub fn write_result(
     }
     let fault = missing.map(|missing| {
         let kept = summary.files.join(", ");
-        Failure::failed(missing).with_help(format!("kept: {kept}; {DISK_FULL}"))
+        Failure::failed(missing).with_help(format!("kept: {kept}"))
     });
     WrittenResult { summary, text, fault }
 }
@@ -117,7 +117,7 @@ fn with_report(folder: &Path, summary: &mut Summary, text: String) -> (String, O
     match write() {
         Ok(()) => (text, None),
         Err(error) => {
-            let missing = format!("{REPORT_FILE} cannot be written: {error}");
+            let missing = format!("{REPORT_FILE} cannot be written: {}", cause(&*error));
             summary.files.retain(|file| file != REPORT_FILE);
             summary.warnings.push(missing.clone());
             (json_text(summary).unwrap_or(text), Some(missing))
@@ -128,12 +128,11 @@ fn with_report(folder: &Path, summary: &mut Summary, text: String) -> (String, O
 fn nothing_written(
     mut summary: Summary,
     text: String,
-    error: &dyn std::error::Error,
+    error: &(dyn std::error::Error + 'static),
 ) -> WrittenResult {
     summary.files.clear();
-    let fault = Failure::failed(format!("the result cannot be written: {error}")).with_help(
-        format!("nothing was kept of this run, and an older result is unchanged; {DISK_FULL}"),
-    );
+    let fault = Failure::failed(format!("the result cannot be written: {}", cause(error)))
+        .with_help("nothing was kept of this run, and an older result is unchanged");
     WrittenResult { summary, text, fault: Some(fault) }
 }
 
@@ -146,8 +145,9 @@ fn json_text(summary: &Summary) -> serde_json::Result<String> {
 /// Reserves space for the summary; if there is none, no other file is tried.
 fn reserve_space(folder: &Path, summary: &Summary) -> Result<(), String> {
     let n_bytes = json_text(summary).map_or(0, |text| text.len()) + RESERVE;
-    fs::write(folder.join(RESERVE_FILE), vec![b' '; n_bytes])
-        .map_err(|error| format!("{HISTORY_FILE} and the snapshots cannot be written: {error}"))
+    fs::write(folder.join(RESERVE_FILE), vec![b' '; n_bytes]).map_err(|error| {
+        format!("{HISTORY_FILE} and the snapshots cannot be written: {}", cause(&error))
+    })
 }
 
 /// Writes the history, the probes if there are any, and the contact at the snapshots if the model has it.
@@ -158,7 +158,7 @@ fn write_tables(
     summary: &mut Summary,
 ) -> Result<(), String> {
     write_table(folder, HISTORY_FILE, summary, |file| {
-        Ok(history_csv(file, simulation.case().scene(), &collision.history)?)
+        history_csv(file, simulation.case().scene(), &collision.history)
     })?;
     let probes = &simulation.request().probes;
     if !probes.is_empty() {
@@ -181,13 +181,10 @@ fn write_table(
     folder: &Path,
     name: &str,
     summary: &mut Summary,
-    write: impl FnOnce(BufWriter<File>) -> Result<(), Box<dyn std::error::Error>>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), String> {
-    let path = folder.join(name);
-    let file = File::create(&path).map_err(Into::into);
-    file.and_then(|file| write(BufWriter::new(file))).map_err(|error| {
-        let _ = fs::remove_file(&path);
-        format!("{name} and the snapshots cannot be written: {error}")
+    write_streamed(&folder.join(name), folder, write).map_err(|error| {
+        format!("{name} and the snapshots cannot be written: {}", cause(&error))
     })?;
     summary.files.push(name.to_string());
     Ok(())
@@ -202,7 +199,7 @@ fn write_fields(
     summary: &mut Summary,
 ) -> Result<(), String> {
     let written = write_snapshots(folder, stem, simulation, collision)
-        .map_err(|error| format!("the snapshots cannot be written: {error}"))
+        .map_err(|error| format!("the snapshots cannot be written: {}", cause(&error)))
         .and_then(|files| Ok((files, write_failure_figure(folder, stem, simulation, collision)?)));
     let ((files, left_out), picture) =
         written.inspect_err(|_| remove_snapshots(folder, stem, &summary.files))?;
@@ -235,7 +232,7 @@ fn write_failure_figure(
     let Some(svg) = failure_figure(simulation, collision) else { return Ok(None) };
     let name = format!("{stem}_{}.svg", SnapshotInstant::LastValid.name());
     write_whole(&folder.join(&name), folder, svg.as_bytes())
-        .map_err(|error| format!("{name} cannot be written: {error}"))?;
+        .map_err(|error| format!("{name} cannot be written: {}", cause(&error)))?;
     Ok(Some(name))
 }
 

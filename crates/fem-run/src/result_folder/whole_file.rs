@@ -1,8 +1,9 @@
 //! Files that appear whole or not at all, and files of other programs that are never overwritten.
 
-use std::fs::File;
+use std::error::Error;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
@@ -10,8 +11,6 @@ use crate::text::{Failure, shown, standard_output};
 
 pub const PREFIX: &str = ".fem-run-";
 pub const SUFFIX: &str = ".tmp";
-/// The likely reasons why a file of a result cannot be written.
-pub const DISK_FULL: &str = "is the disk full, or a quota or ulimit -f reached?";
 /// Bytes at the beginning of a file in which its marker is searched.
 const HEAD: u64 = 600;
 
@@ -27,26 +26,99 @@ pub fn write_streamed(
     beside: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut file = BufWriter::new(temporary_file(beside)?);
-    write(&mut file)?;
-    file.into_inner()?.persist(path)?;
+    written(beside, write)?.persist(path)?;
+    Ok(())
+}
+
+/// Writes a file that does not exist yet; see [`write_whole`].
+pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    written(folder_of(path), |file| file.write_all(bytes))?.persist_noclobber(path)?;
     Ok(())
 }
 
 /// Replaces a file that must survive a crash of the machine in one step; see [`write_whole`].
 pub fn write_lasting(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = temporary_file(beside)?;
-    file.write_all(bytes)?;
+    let file = written(beside, |file| file.write_all(bytes))?;
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())
 }
 
-fn temporary_file(beside: &Path) -> io::Result<NamedTempFile> {
+/// Returns the folder of a file.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Returns a temporary file with the output of `write`.
+fn written(
+    beside: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX);
     with_usual_permissions(&mut builder, 0o666);
-    builder.tempfile_in(beside)
+    let file = builder.tempfile_in(beside)?;
+    let mut buffer = BufWriter::new(file.as_file());
+    write(&mut buffer)?;
+    buffer.into_inner()?;
+    Ok(file)
+}
+
+/// Returns why a file cannot be written, without the path of a temporary file.
+pub fn cause(error: &(dyn Error + 'static)) -> String {
+    let Some(found) = system_error(error) else { return error.to_string() };
+    match found.kind() {
+        io::ErrorKind::FileTooLarge => {
+            "the limit on the size of files (ulimit -f) is reached".into()
+        }
+        io::ErrorKind::QuotaExceeded => "the disk quota is used up".into(),
+        io::ErrorKind::StorageFull => "the disk is full".into(),
+        kind if found.get_ref().is_some() => kind.to_string(),
+        _ => found.to_string(),
+    }
+}
+
+/// Returns the failure of a command that cannot write `what`: a valid job without room, or a place for which `help` is.
+pub fn unwritten(what: &str, error: &(dyn Error + 'static), help: &str) -> Failure {
+    use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+    let message = format!("{what} cannot be written: {}", cause(error));
+    let kind = system_error(error).map(io::Error::kind);
+    match matches!(kind, Some(FileTooLarge | QuotaExceeded | StorageFull)) {
+        true => Failure::failed(message),
+        false => Failure::bad_input(message).with_help(help),
+    }
+}
+
+/// Returns the error of the operating system that others wrap.
+fn system_error<'a>(error: &'a (dyn Error + 'static)) -> Option<&'a io::Error> {
+    if let Some(csv::ErrorKind::Io(inner)) = error.downcast_ref().map(csv::Error::kind) {
+        return Some(inner);
+    }
+    let Some(found) = error.downcast_ref::<io::Error>() else {
+        return error.source().and_then(system_error);
+    };
+    let inner = found.get_ref().and_then(|inner| system_error(inner));
+    Some(inner.unwrap_or(found))
+}
+
+/// Folders that a command makes for its files. Those that are empty when it is dropped are removed.
+#[derive(Debug)]
+pub struct MadeFolders(Vec<PathBuf>);
+
+impl MadeFolders {
+    /// Notes the missing folders above a path, the innermost first.
+    pub fn above(path: &Path) -> Self {
+        let is_missing = |folder: &&Path| folder.symlink_metadata().is_err();
+        Self(path.ancestors().skip(1).take_while(is_missing).map(Path::to_path_buf).collect())
+    }
+}
+
+impl Drop for MadeFolders {
+    fn drop(&mut self) {
+        for folder in &self.0 {
+            let _ = fs::remove_dir(folder);
+        }
+    }
 }
 
 /// Gives temporary files or folders the permissions of any new one, less the umask.
@@ -110,17 +182,9 @@ impl OwnedFileKind {
     /// Writes a file whatever is there, and returns the line that reports it.
     pub fn replace(&self, path: &Path, bytes: &[u8]) -> Result<String, Failure> {
         let shown = shown(path);
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        write_whole(path, folder.unwrap_or(Path::new(".")), bytes).map_err(|error| {
-            use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
-            let message = format!("{shown}: {error}");
-            if matches!(error.kind(), FileTooLarge | QuotaExceeded | StorageFull) {
-                return Failure::failed(message).with_help(DISK_FULL);
-            }
-            let help =
-                format!("name a file in a folder that you may write to with {}", self.option);
-            Failure::bad_input(message).with_help(help)
-        })?;
+        let help = format!("name a file in a folder that you may write to with {}", self.option);
+        write_whole(path, folder_of(path), bytes)
+            .map_err(|error| unwritten(&shown, &error, &help))?;
         let (first, rest) = self.what.split_at(1);
         Ok(format!("{}{rest}: {shown}\n", first.to_uppercase()))
     }

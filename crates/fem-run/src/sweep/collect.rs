@@ -12,6 +12,7 @@ use fem_report::sweep::{FigureChoice, FigurePoint, sweep_figure};
 use serde_json::Value;
 
 use super::folder::{FIGURE_FILE, SweepFolder};
+use crate::result_folder::whole_file::cause;
 use crate::text::{Failure, one_line};
 
 const MAX_SHOWN: usize = 40;
@@ -89,7 +90,7 @@ impl Collector<'_> {
         let folder = &*self.folder;
         let fault = |name: &str, error: &io::Error| {
             let place = folder.path().join(name);
-            let message = format!("{} cannot be written: {error}", place.display());
+            let message = format!("{} cannot be written: {}", place.display(), cause(error));
             Failure::failed(message)
                 .with_help("the members that were computed are kept; the same command continues")
         };

@@ -13,9 +13,9 @@ use serde_json::Value;
 
 use super::member_store::{MemberFile, MemberStore, ShardFilter};
 use super::shard::Shard;
+use crate::result_folder::Origin;
 use crate::result_folder::recover_leftovers;
-use crate::result_folder::whole_file::{PREFIX, write_streamed};
-use crate::result_folder::{Origin, missing_parents};
+use crate::result_folder::whole_file::{MadeFolders, PREFIX, unwritten, write_streamed};
 use crate::text::{Failure, shown};
 
 /// The manifest: the varied keys, and the values and identities of the members.
@@ -110,14 +110,10 @@ impl SweepFolder {
         let named = shown(out);
         recover_leftovers(out);
         recover_leftovers(&out.join(MEMBERS));
-        let made: Vec<_> = missing_parents(&out.join(MEMBERS));
+        let _made = MadeFolders::above(&out.join(MEMBERS));
         self.prepare(mark).map_err(|error| {
-            for folder in &made {
-                // Removes a folder only if it is empty.
-                let _ = fs::remove_dir(folder);
-            }
-            let message = format!("--out {named}: a sweep cannot be written here: {error}");
-            Failure::bad_input(message).with_help("name a folder in a place that you may write to")
+            let what = format!("--out {named}: a sweep");
+            unwritten(&what, &error, "name a folder in a place that you may write to")
         })
     }
 

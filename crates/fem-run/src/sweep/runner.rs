@@ -21,6 +21,7 @@ use crate::progress::stopwatch::{Stopwatch, Timed};
 use crate::progress::{ItemMonitor, ItemProgress};
 use crate::result_folder::ResultFolder;
 use crate::result_folder::run_files::{longest_name, write_result};
+use crate::result_folder::whole_file::cause;
 use crate::text::failure::Failure;
 
 pub struct SweepJob<'a> {
@@ -138,8 +139,8 @@ impl ResultKeeper<'_> {
         let (spent, warnings) = (stopwatch.spent(), ran.warnings());
         let summary = Summary::of(simulation, collision, errors, spent, warnings, Vec::new());
         self.pack.append(identity, &summary).map_err(|error| {
-            Failure::failed(format!("a summary cannot be written: {error}"))
-                .with_help("the members before it are kept; is the disk full, or a quota or ulimit -f reached?")
+            Failure::failed(format!("a summary cannot be written: {}", cause(&error)))
+                .with_help("the members before it are kept; the same command continues")
         })?;
         Ok(summary)
     }

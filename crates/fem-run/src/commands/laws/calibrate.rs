@@ -105,7 +105,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals());
     output.write("calibrate.svg", picture);
     let numbers = found.numbers(&arguments.input.name(), warnings.clone());
-    output.publish(&numbers, || calibration_text(&found, &warnings))
+    output.publish(&numbers, |_| calibration_text(&found, &warnings))
 }
 
 /// Calibrates to a table in memory and returns the numbers, with the table to paste into the case.

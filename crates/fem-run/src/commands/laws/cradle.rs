@@ -118,7 +118,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         "mass_ratio": second.value / first.value,
         "gravity_m_s2": cradle.gravity.value,
     });
-    output.publish(&numbers, || many(&cradle, &swings))
+    output.publish(&numbers, |_| many(&cradle, &swings))
 }
 
 /// Returns speed before, restitution and velocities after with their uncertainties, of one trial or of each

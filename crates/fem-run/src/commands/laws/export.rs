@@ -84,7 +84,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         output.write(BAND_FILE, band.csv());
     }
     output.write("export.svg", export_figure(&fitted));
-    output.publish(&fitted.numbers(&arguments.input.name(), &snippets), || {
+    output.publish(&fitted.numbers(&arguments.input.name(), &snippets), |_| {
         let mut text = export_text(&fitted, &snippets);
         text += &law_note(&fitted, arguments.data.is_some());
         if fitted.curve.has_hertz_times {
@@ -195,7 +195,7 @@ fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
     }
     standard_output::warn(export.warnings());
     let numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
-    output.publish(&numbers, || pairs_text(&export, &rows))
+    output.publish(&numbers, |_| pairs_text(&export, &rows))
 }
 
 fn fitted(

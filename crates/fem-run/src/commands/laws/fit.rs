@@ -162,12 +162,11 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories);
     standard_output::warn(fitted.warnings());
-    let next = next_steps(fitted, &arguments.input.name(), output.place());
-    output.publish(&fitted.numbers(&arguments.input.name()), || {
+    output.publish(&fitted.numbers(&arguments.input.name()), |kept| {
         answer(fitted, ranking.as_ref())
             + &ranking.as_ref().map_or(String::new(), ranking_text)
             + &fit_text(fitted, law)
-            + &next
+            + &next_steps(fitted, &arguments.input.name(), kept.folder())
     })
 }
 

@@ -186,14 +186,17 @@ pub fn weighted_down(data: &Restitutions, robustness: &Robustness, weights: &[f6
 }
 
 /// Returns the law as a case has it, and the command that writes it for other codes.
-pub fn next_steps(fitted: &LawFit<'_>, case: &str, folder: &Path) -> String {
+pub fn next_steps(fitted: &LawFit<'_>, case: &str, kept: Option<&Path>) -> String {
     let model = fitted.model_toml().map_or(String::new(), |toml| {
         format!(
             "\nThe law in a case of the same bodies; its e has all losses of the data:\n\n{toml}"
         )
     });
-    let (case, folder) = (one_line(case), shown(folder));
-    format!("{model}\nInput for DEM codes: fem-run export {case} --fit {folder}\n")
+    let case = one_line(case);
+    let export = kept.map_or(String::new(), |folder| {
+        format!("\nInput for DEM codes: fem-run export {case} --fit {}\n", shown(folder))
+    });
+    model + &export
 }
 
 fn profile_words(profile: Option<&Profile>, shown: impl Fn(f64) -> String) -> String {

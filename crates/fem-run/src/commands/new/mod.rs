@@ -1,13 +1,14 @@
 //! `fem-run new NAME`: a case to start from.
 
-use std::fs::{self, OpenOptions};
-use std::io::{ErrorKind, Write};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use fem_case::{CASE_SCHEMA, Case};
 
 use crate::arguments::case::stem_of;
 use crate::commands::materials;
+use crate::result_folder::whole_file::{folder_of, unwritten, write_new, write_whole};
 use crate::text::{Failure, one_line, shown, standard_output};
 
 /// The text of a new case; `{…}` are placeholders.
@@ -63,8 +64,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     // The written text is checked to be a valid case.
     Case::parse(&path.display().to_string(), &text, Path::new("."), &[])?;
     let schema = path.with_file_name(SCHEMA_FILE);
-    write_new(&path, &text)?;
-    let wrote_schema = write_schema(&schema)?;
+    let place = "name a file in a folder that exists and that you may write to";
+    write_new(&path, text.as_bytes()).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Failure::bad_input(format!("{} exists", shown(&path)))
+            .with_help("give the new case another name; nothing is overwritten"),
+        _ => unwritten(&shown(&path), &error, place),
+    })?;
+    let wrote_schema = write_schema(&schema)
+        .map_err(|failure| failure.with_help(format!("kept: {}", shown(&path))))?;
     if arguments.quiet {
         return Ok(());
     }
@@ -140,26 +147,12 @@ fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Fail
     Ok(words.iter().fold(TEMPLATE.to_string(), |text, (from, to)| text.replace(from, to)))
 }
 
-fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let name = shown(path);
-    let file = OpenOptions::new().write(true).create_new(true).open(path);
-    let mut file = file.map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure::bad_input(format!("{name} exists"))
-            .with_help("give the new case another name; nothing is overwritten"),
-        _ => Failure::bad_input(format!("{name} cannot be written: {error}"))
-            .with_help("name a file in a folder that exists and that you may write to"),
-    })?;
-    let written = file.write_all(text.as_bytes());
-    written.map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))
-}
-
 /// Writes the schema unless another program's file is in the way; returns whether it did.
 fn write_schema(path: &Path) -> Result<bool, Failure> {
     if fs::read(path).is_ok_and(|old| !String::from_utf8_lossy(&old).contains(SCHEMA_TITLE)) {
         return Ok(false);
     }
-    let name = shown(path);
-    let written = fs::write(path, CASE_SCHEMA);
-    written.map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))?;
+    write_whole(path, folder_of(path), CASE_SCHEMA.as_bytes())
+        .map_err(|error| unwritten(&shown(path), &error, ""))?;
     Ok(true)
 }

@@ -114,15 +114,58 @@ fn commands_on_a_full_disk_answer_and_keep_what_they_can() {
     }
 }
 
-/// Pages and pictures of results, and the copy of a table, fail like other files.
+/// Every command that writes ends with status 1 and names the file as the user did and the cause, leaves no cut file and no empty
+/// folder, and names no file that is not there. Sizes in kilobytes: none at all, and one that the first large file exceeds.
 #[test]
-fn pages_on_a_full_disk_are_an_error() {
-    let place = Place::new();
-    place.succeed("case.toml --out run");
-    for words in [["report", "run", "--out=page.html"], ["plot", "run", "--what=force"]] {
-        let ran = run_within(&place, 1, &words);
-        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-        ran.tells("is the disk full");
+fn every_command_names_the_file_and_the_limit_and_leaves_nothing_cut() {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../validation/data");
+    let sweep = "case = \"case.toml\"\n[vary]\n\"body.0.approach_speed\" = [0.1, 0.2]\n";
+    for (words, kilobytes, named, kept) in [
+        ("case.toml --out made/new", &[0, 1][..], "result", &[][..]),
+        ("mesh case.toml --out made/new", &[0, 1], "made/new/striker.vtu", &[]),
+        ("measure DATA/bounce_times.csv --out made/new", &[0, 1], "", &[]),
+        ("measure DATA/bounce_times.csv --out new.csv", &[10], "measure.svg", &["new.csv", "runs"]),
+        ("relaxation DATA/dma_23_degc.csv --out made/new", &[0, 1], "", &[]),
+        (
+            "fit case.toml --law kuwabara_kono --data DATA/bridges_ice.csv --out made/new",
+            &[0, 1],
+            "",
+            &[],
+        ),
+        (
+            "calibrate case.toml --model=ting --terms=1 --data DATA/bridges_ice.csv --out made/new",
+            &[0, 1],
+            "",
+            &[],
+        ),
+        ("export case.toml --out made/new", &[0, 1], "", &[]),
+        ("report run --out new.html", &[0, 1], "new.html", &[]),
+        ("plot run --what force --out new.svg", &[0, 1], "new.svg", &[]),
+        ("sweep sweep.toml --out made/new", &[0], "made/new", &[]),
+        ("new new", &[0, 1], "new.toml", &[]),
+        ("new new", &[10], "fem-run.schema.json", &["new.toml"]),
+    ] {
+        for kilobytes in kilobytes {
+            let place = Place::new();
+            place.write("sweep.toml", sweep);
+            place.succeed("case.toml --out run --set model={hertz={}}");
+            let before = place.list("");
+            let words: Vec<_> = words.split(' ').map(|word| word.replace("DATA", data)).collect();
+            let words: Vec<_> = words.iter().map(String::as_str).collect();
+            let ran = run_within(&place, *kilobytes, &words);
+            assert_eq!(ran.code, Some(1), "{words:?}: {}", ran.stderr);
+            ran.tells(named);
+            ran.tells("the limit on the size of files (ulimit -f) is reached");
+            let said = ran.stdout + &ran.stderr;
+            assert!(!said.contains(".tmp") && !said.contains("os error"), "{words:?}: {said}");
+            assert!(
+                !said.contains("--data made") && !said.contains("--fit made"),
+                "{words:?}: {said}"
+            );
+            assert!(!said.contains("file = \"made"), "{words:?}: {said}");
+            let after = place.list("").into_iter().filter(|name| !before.contains(name));
+            assert_eq!(after.collect::<Vec<_>>(), kept, "{words:?} {kilobytes}: {said}");
+        }
     }
 }
 
