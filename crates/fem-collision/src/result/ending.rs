@@ -281,12 +281,18 @@ pub enum Ending {
     Stopped(Stop),
 }
 
+/// Excess of a restitution over 1 that integrators leave to a contact that loses nothing. A larger one is an error and stays.
+const ROUNDING: f64 = 1e-9;
+
 impl Ending {
     /// Returns the restitution: rate of separation over approach speed for bodies that have separated, 0 for bodies that
     /// stay together, and `None` for a run that was stopped.
     pub fn restitution(&self, rate_of_separation: f64, approach_speed: f64) -> Option<f64> {
         match self {
-            Self::Parted => Some(rate_of_separation / approach_speed),
+            Self::Parted => {
+                let restitution = rate_of_separation / approach_speed;
+                Some(if restitution < 1.0 + ROUNDING { restitution.min(1.0) } else { restitution })
+            }
             Self::Together | Self::AtRest => Some(0.0),
             Self::Stopped(_) => None,
         }

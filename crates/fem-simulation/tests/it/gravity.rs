@@ -43,6 +43,19 @@ fn heights(collision: &Collision) -> Vec<f64> {
     tops.collect()
 }
 
+/// No bounce of an elastic ball gains by rounding, and a real gain is not hidden.
+#[test]
+fn no_bounce_returns_more_than_it_had() {
+    for model in ["model.hertz={}", "model.ting={}"] {
+        let found = run(&[model, ELASTIC, "stop.bounces=6"]);
+        let restitutions: Vec<f64> = found.bounces.iter().map(|it| it.restitution).collect();
+        assert!(restitutions.len() > 1, "{model}");
+        assert!(restitutions.iter().all(|e| *e <= 1.0), "{model}: {restitutions:?}");
+    }
+    assert_eq!(Ending::Parted.restitution(1.0 + 1e-12, 1.0), Some(1.0));
+    assert_eq!(Ending::Parted.restitution(1.01, 1.0), Some(1.01));
+}
+
 /// The change of the first contact by the weight agrees with its estimate, for a ball that is let down at 3 cm/s.
 #[test]
 fn the_neglect_error_of_gravity_is_that_of_runs() {

@@ -166,7 +166,8 @@ impl Bounced {
         if let Some(bounce) = self.bounces.last_mut() {
             // The speed after is that at the height of first touch, which equals the landing speed.
             let after = landing.as_ref().map_or(0.0, |landing| landing.speed);
-            bounce.restitution = after / bounce.speed_before;
+            let found = Ending::Parted.restitution(after, bounce.speed_before);
+            bounce.restitution = found.unwrap_or(bounce.restitution);
         }
         self.chain.keep(&rows, landing.map_or(f64::INFINITY, |landing| landing.time));
         let unloaded =

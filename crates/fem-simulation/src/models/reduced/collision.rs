@@ -21,7 +21,6 @@ pub(super) fn of_impact(
     let has_radius = law.is_none_or(ContactLaw::has_contact_radius);
     let dents = law.is_some_and(|law| law.elastic_plastic().is_some());
     let rows = Rows { frame, has_radius, dents };
-    let after = frame.velocities(-impact.restitution * frame.speed());
     let instants = || impact.history.iter();
     let residual = |instant| rows.row(instant).residual.unwrap_or(0.0);
     let is_together = impact.contact_time.is_none();
@@ -29,8 +28,10 @@ pub(super) fn of_impact(
     let energy_scale = frame.energy_scale(impact.max_approach);
     let end = impact.history.last().map(|instant| rows.row(instant));
     let ending = if is_together { Ending::Together } else { Ending::Parted };
+    let restitution = ending.restitution(impact.restitution, 1.0);
+    let after = frame.velocities(-restitution.unwrap_or(0.0) * frame.speed());
     Collision {
-        restitution: Some(impact.restitution),
+        restitution,
         contact_time: impact.contact_time,
         first_contact: Some(first_touch),
         last_contact: impact.contact_time.map(|time| first_touch + time),
