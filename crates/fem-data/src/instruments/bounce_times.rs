@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use crate::estimate::median;
 use crate::table::Measured;
-use crate::table::{DataError, NumberColumns};
+use crate::table::{DataError, Table};
 
 use super::flight_speeds::{Errors, Speeds};
 use super::impact::Impact;
@@ -95,9 +95,8 @@ impl Instants {
     ///
     /// # Errors
     /// The table has no column of instants, a cell is no number, or the instants do not increase.
-    pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let help = "name a column time_s or time_ms, or say which it is, --columns time=COLUMN";
-        let column = columns.require(&TIMES, "of instants", help)?;
+    pub fn read(columns: &Table) -> Result<Self, DataError> {
+        let column = columns.require(&TIMES, "time_s or time_ms")?;
         let times = columns.numbers(column, [0, 0, 1])?;
         let uncertainties = match columns.find(&TIME_UNCERTAINTIES)? {
             Some(column) => Some(columns.numbers(column, [0, 0, 1])?.values),
@@ -108,10 +107,10 @@ impl Instants {
             let known = values.into_iter().zip(&is_known).filter(|(_, known)| **known);
             known.map(|(value, _)| value).collect()
         };
-        let lines = columns.lines().into_iter().zip(&is_known).filter(|(_, known)| **known);
+        let lines = (0..columns.n_rows()).filter(|row| is_known[*row]);
         let instants = Self {
             name: columns.name().to_string(),
-            lines: lines.map(|(line, _)| line).collect(),
+            lines: lines.map(|row| columns.line(row)).collect(),
             values: kept(times.values),
             uncertainties: uncertainties.map(kept),
             resolution: times.resolution,
@@ -148,11 +147,11 @@ impl BounceTimes {
     /// The record does not support a restitution, or a value of the rig is out of range.
     ///
     /// ```
-    /// use fem_data::table::NumberColumns;
+    /// use fem_data::table::Table;
     /// use fem_data::instruments::{BounceTimes, Instants, Rig};
     ///
     /// let text = "time_s\n0.4515\n1.2640\n1.9954\n2.6537\n";
-    /// let instants = Instants::read(&NumberColumns::parse("drop.csv", text)?)?;
+    /// let instants = Instants::read(&Table::of_record("drop.csv", text)?)?;
     /// let bounces = BounceTimes::of(instants, &Rig::default())?;
     /// let first = bounces.impacts[0];
     /// assert!((first.restitution.value - 0.9002).abs() < 1e-4);

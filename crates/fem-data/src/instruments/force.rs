@@ -19,7 +19,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::table::Measured;
-use crate::table::{DataError, NumberColumns};
+use crate::table::{DataError, Table};
 
 use super::impact::Impact;
 use super::rig::Rig;
@@ -111,12 +111,9 @@ impl Samples {
     ///
     /// # Errors
     /// A column is missing, a cell is no number, or the times do not increase.
-    pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let require = |names: &[&str], help| columns.require(names, names[0], help);
-        let time =
-            require(&TIMES, "name a column time_s or time_ms, or write --columns time=COLUMN")?;
-        let force =
-            require(&FORCES, "name a column force_n or force_kn, or write --columns force=COLUMN")?;
+    pub fn read(columns: &Table) -> Result<Self, DataError> {
+        let time = columns.require(&TIMES, "time_s or time_ms")?;
+        let force = columns.require(&FORCES, "force_n or force_kn")?;
         let times = columns.numbers(time, [0, 0, 1])?.values;
         let forces = columns.numbers(force, [1, 1, -2])?.values;
         let both = times.into_iter().zip(forces).enumerate();

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::table::Measured;
-use crate::table::{DataError, NumberColumns, decode};
+use crate::table::{DataError, Table, decode};
 
 use super::bounce_times::{BounceTimes, Instants};
 use super::force::{ForceRecord, Samples};
@@ -48,7 +48,7 @@ impl Record {
             return Sound::of(read_wav(name, bytes)?, rig).map(Self::Sound);
         }
         let text = decode(bytes);
-        let columns = NumberColumns::parse(name, &text)?.renamed(names)?;
+        let columns = Table::of_record(name, &text)?.renamed(names)?;
         let kind = match kind {
             Some(kind) => kind,
             None => RecordKind::of(&columns)?,

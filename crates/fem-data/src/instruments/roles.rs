@@ -1,6 +1,6 @@
 //! The kinds of records, and the names of their columns.
 
-use crate::table::{DataError, NumberColumns};
+use crate::table::{DataError, Table};
 
 /// The kinds of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl RecordKind {
     ///
     /// # Errors
     /// The columns are those of no kind.
-    pub(super) fn of(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
+    pub(super) fn of(columns: &Table) -> Result<Self, DataError> {
         let has = |names: &[&str]| columns.find(names).map(|found| found.is_some());
         if has(&TIMES)? {
             let second =

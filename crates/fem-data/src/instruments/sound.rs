@@ -5,7 +5,7 @@
 //! instant is that of the first sample above a fifth of the burst's peak. The scatter of these instants is part of the
 //! uncertainty, since it comes from the scatter of the flights.
 
-use crate::table::{DataError, NumberColumns};
+use crate::table::{DataError, Table};
 
 use super::bounce_times::{BounceTimes, Instants};
 use super::rig::Rig;
@@ -70,10 +70,9 @@ impl Signal {
     ///
     /// # Errors
     /// A column is missing, a cell is no number, or the samples are not evenly spaced.
-    pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let help = "name the columns time_s and signal, or write --columns time=A,signal=B";
-        let time = columns.require(&TIMES, TIMES[0], help)?;
-        let signal = columns.require(&SIGNALS, SIGNALS[0], help)?;
+    pub fn read(columns: &Table) -> Result<Self, DataError> {
+        let time = columns.require(&TIMES, "time_s")?;
+        let signal = columns.require(&SIGNALS, "signal")?;
         let times = columns.numbers(time, [0, 0, 1])?.values;
         let values = columns.plain(signal)?.values;
         let fault = |message: String| {

@@ -1,4 +1,5 @@
-//! CSV tables with a header: cells as numbers, and errors with their line.
+//! CSV tables with a header: cells as numbers, and errors with their line; also long records, as instruments and programs
+//! export them, with lines above the header and rows of millions.
 //!
 //! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`, or have it in
 //! brackets, `speed [cm/s]`, or in a row of units below the names. Without one a cell is a bare SI number or has its own
@@ -8,17 +9,21 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 
-use fem_case::{nearest, parse_quantity};
+use fem_case::{Dimension, nearest, parse_quantity};
 use fem_material::engineering::number;
 
-use super::column_roles::{bare, column_names, ending_of, is_key, readings, uncertainty_of};
+use super::cells::Cells;
+use super::column_roles::{
+    bare, before_brackets, column_names, ending_of, is_key, readings, uncertainty_of,
+};
 use super::csv_dialect::{
     column_name, is_missing, separator, tabs_for_blanks, value_and_uncertainty, with_point,
     with_signs_named, with_units,
 };
 use super::data_error::{DataError, one_line};
+use super::preamble::without_preamble;
 
-/// A table in memory with its cells as text.
+/// A table in memory with its cells as text, which are kept in one string.
 ///
 /// ```
 /// use fem_data::table::Table;
@@ -36,10 +41,28 @@ pub struct Table {
     name: String,
     header: Vec<String>,
     header_line: u64,
-    rows: Vec<(u64, Vec<String>)>,
+    cells: Cells,
     has_decimal_commas: bool,
     /// Columns that the user has renamed.
     named: Vec<usize>,
+}
+
+/// The numbers of one column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NumberColumn {
+    /// The values, SI; `NaN` for a cell without a value.
+    pub values: Vec<f64>,
+    /// The step of the last digit that the column has, SI.
+    pub resolution: f64,
+}
+
+/// What rows may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rows {
+    /// As long as the header.
+    Even,
+    /// Of any length: what an instrument sets beside its samples is left out, and cells that are not there have no value.
+    Ragged,
 }
 
 /// The beginnings of `.xlsx`, `.ods` and other packed files, and of `.xls`, read as Latin-1.
@@ -48,6 +71,9 @@ const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
 /// Similarity of names above which one is the other misspelt, such as `diameter1` and `uncertanty`, but not
 /// `contact_radius` for `contact_time`.
 const MISSPELT: f64 = 0.9;
+
+/// The dimension of a bare number.
+const PLAIN: Dimension = Dimension([0; 4]);
 
 impl Table {
     /// Returns the table with another name of a column, if it has that column.
@@ -62,6 +88,32 @@ impl Table {
     /// # Errors
     /// The text is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
+        Self::read(name, text, Rows::Even)
+    }
+
+    /// Parses the record of an instrument: lines above the header (`mass_A`, settings of an oscilloscope) are skipped, and rows may
+    /// be longer or shorter than the header.
+    ///
+    /// # Errors
+    /// Those of [`Table::parse`].
+    ///
+    /// ```
+    /// use fem_data::table::Table;
+    ///
+    /// let text = "mass_A\nt;y\ns;cm\n0,00;12,5\n0,01;\n0,02;12,7\n";
+    /// let track = Table::of_record("track.txt", text)?;
+    /// let y = track.find(&["y"])?.expect("a column");
+    /// let heights = track.numbers(y, [1, 0, 0])?;
+    /// assert_eq!(heights.values[2], 0.127);
+    /// assert!(heights.values[1].is_nan());
+    /// assert_eq!(heights.resolution, 0.001);
+    /// # Ok::<(), fem_data::table::DataError>(())
+    /// ```
+    pub fn of_record(name: &str, text: &str) -> Result<Self, DataError> {
+        Self::read(name, &without_preamble(text.trim_start_matches('\u{feff}')), Rows::Ragged)
+    }
+
+    fn read(name: &str, text: &str, kind: Rows) -> Result<Self, DataError> {
         let name = one_line(name);
         let text = text.trim_start_matches('\u{feff}');
         if PACKED.iter().any(|mark| text.starts_with(mark)) {
@@ -78,20 +130,20 @@ impl Table {
         };
         let (header, header_line) = named_columns(&name, &text, separator)?;
         let mut header = with_signs_named(header);
-        let mut rows = cells(&name, &text, separator, header.len())?;
-        split_uncertainties(&mut header, &mut rows);
-        if let [(_, first), (_, second), ..] = rows.as_slice()
-            && let Some(names) = with_units(&header, first, second)
+        let cells = cells(&name, &text, separator, (header.len(), kind))?;
+        let mut cells = split_uncertainties(&mut header, cells);
+        if cells.n_rows() > 1
+            && let Some(names) = with_units(&header, &cells.row(0), &cells.row(1))
         {
             header = names;
-            rows.remove(0);
+            cells.remove_first();
         }
-        if rows.is_empty() {
+        if cells.n_rows() == 0 {
             return Err(DataError::new(&name, "there is no row below the header"));
         }
         let has_decimal_commas = separator != b',';
         let named = Vec::new();
-        let table = Self { name, header, header_line, rows, has_decimal_commas, named };
+        let table = Self { name, header, header_line, cells, has_decimal_commas, named };
         table.check_header()?;
         table.check_decimal_signs()?;
         Ok(table)
@@ -118,8 +170,10 @@ impl Table {
             cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok()
         };
         let cells = || {
-            let rows = self.rows.iter().enumerate();
-            rows.flat_map(|(row, (_, cells))| cells.iter().map(move |cell| (row, cell)))
+            let columns = 0..self.header.len();
+            (0..self.n_rows()).flat_map(move |row| {
+                columns.clone().map(move |column| (row, self.text(row, column)))
+            })
         };
         let point = cells().find(|(_, cell)| number_with(cell, '.'));
         let comma = cells().find(|(_, cell)| number_with(cell, ','));
@@ -188,7 +242,7 @@ impl Table {
 
     /// Returns the number of rows.
     pub fn n_rows(&self) -> usize {
-        self.rows.len()
+        self.cells.n_rows()
     }
 
     /// Returns the names of the columns, in lower case.
@@ -196,7 +250,7 @@ impl Table {
         &self.header
     }
 
-    /// Returns the column that has one of these names, with or without the ending of a unit.
+    /// Returns the column that has one of these names, with or without the ending of a unit or another text in brackets.
     ///
     /// # Errors
     /// Two columns have one.
@@ -207,7 +261,12 @@ impl Table {
         if let Some(named) = self.named.iter().copied().find(is_it) {
             return Ok(Some(named));
         }
-        self.only((0..self.header.len()).filter(is_it))
+        let is_before_brackets =
+            |column: &usize| names.contains(&before_brackets(&self.header[*column]));
+        match self.only((0..self.header.len()).filter(is_it))? {
+            None => self.only((0..self.header.len()).filter(is_before_brackets)),
+            found => Ok(found),
+        }
     }
 
     /// Returns the only one of these columns, if there is one.
@@ -282,7 +341,7 @@ impl Table {
 
     /// Returns the text of a cell.
     pub fn text(&self, row: usize, column: usize) -> &str {
-        self.rows[row].1.get(column).map_or("", String::as_str)
+        self.cells.cell(row, column)
     }
 
     /// Whether a cell has no value: it is empty, `nan`, `n/a`, `-`, ….
@@ -297,7 +356,7 @@ impl Table {
 
     /// Returns the line of a row in the text.
     pub fn line(&self, row: usize) -> u64 {
-        self.rows[row].0
+        self.cells.line(row)
     }
 
     /// Returns a cell as a number of a dimension (exponents of metre, kilogram, second), SI.
@@ -310,7 +369,9 @@ impl Table {
             self.fault(row, format!("{header} is \"{text}\", {found}")).in_column(header)
         };
         let cell = if self.has_decimal_commas { with_point(text) } else { text.into() };
-        let (value, found) = parse_quantity(&cell).map_err(|_| {
+        let plain = cell.parse::<f64>().ok().filter(|value| value.is_finite());
+        let read = plain.map_or_else(|| parse_quantity(&cell), |value| Ok((value, PLAIN)));
+        let (value, found) = read.map_err(|_| {
             let fault = fault("which is not a number".to_string());
             match (text.contains('.'), text.contains(',')) {
                 (true, true) => fault.with_help("remove the separator of thousands: 1000,5 or 1000.5"),
@@ -325,13 +386,73 @@ impl Table {
         let is_bare = found.0 == [0; 4];
         match ending_of(header) {
             Some(ending) if ending.dimension != dimension => {
-                Err(fault(format!("in a column whose name ends in {}", ending.text))
-                    .with_help("the ending of a column's name is its unit"))
+                let message = format!(
+                    "in a column whose name ends in {}, a unit of another dimension",
+                    ending.text
+                );
+                Err(fault(message).with_help("the ending of a column's name is its unit"))
             }
             Some(ending) if is_bare => Ok(value * ending.scale),
+            None if is_bare && dimension != [0; 3] && header.contains(['[', '(']) => {
+                let message = format!("the unit of {header} is not known");
+                Err(self.header_fault(message).in_column(header).with_help(
+                    "name the column with a unit in SI or with one of its prefixes, such as time [ms], y [cm] or force [N]",
+                ))
+            }
             None if is_bare || found.0 == [m, kg, s, 0] => Ok(value),
             Some(_) => Err(fault("but the column's name has the unit already".to_string())),
             None => Err(fault("which is of another dimension".to_string())),
+        }
+    }
+
+    /// Returns the numbers of a column of a dimension (exponents of metre, kilogram, second), SI, one for each row.
+    ///
+    /// # Errors
+    /// A cell has another text, or the unit of the column is of another dimension.
+    pub fn numbers(&self, column: usize, dimension: [i32; 3]) -> Result<NumberColumn, DataError> {
+        let mut values = Vec::with_capacity(self.n_rows());
+        let mut last_digit = None;
+        for row in 0..self.n_rows() {
+            let text = self.text(row, column);
+            values.push(match is_missing(text) {
+                true => f64::NAN,
+                false => self.number(row, column, dimension)?,
+            });
+            let point = if self.has_decimal_commas { with_point(text) } else { text.into() };
+            if let Some(decimals) = point.parse::<f64>().ok().map(|_| decimals(&point)) {
+                last_digit = last_digit.max(Some(decimals));
+            }
+        }
+        let scale = ending_of(&self.header[column]).map_or(1.0, |ending| ending.scale);
+        let resolution = last_digit.map_or(0.0, |n| scale * 10f64.powi(-n));
+        Ok(NumberColumn { values, resolution })
+    }
+
+    /// Returns the numbers of a column whatever its dimension, as of a signal whose unit does not matter.
+    ///
+    /// # Errors
+    /// A cell is no number.
+    pub fn plain(&self, column: usize) -> Result<NumberColumn, DataError> {
+        let ending = ending_of(&self.header[column]);
+        self.numbers(column, ending.map_or([0; 3], |ending| ending.dimension))
+    }
+
+    /// Checks that the time of a row follows the last time, s.
+    ///
+    /// # Errors
+    /// It does not; `help` says what to do.
+    pub fn check_increase(
+        &self,
+        row: usize,
+        last: Option<&f64>,
+        time: f64,
+        help: &str,
+    ) -> Result<(), DataError> {
+        match last.is_none_or(|last| time > *last) {
+            true => Ok(()),
+            false => {
+                Err(self.fault(row, format!("the time {time} s does not increase")).with_help(help))
+            }
         }
     }
 
@@ -389,13 +510,13 @@ fn named_columns(name: &str, text: &str, separator: u8) -> Result<(Vec<String>, 
     ))
 }
 
-/// Returns the cells of the rows below the header of a text, each row with its line.
+/// Returns the cells of the rows below the header of a text.
 fn cells(
     name: &str,
     text: &str,
     separator: u8,
-    n_columns: usize,
-) -> Result<Vec<(u64, Vec<String>)>, DataError> {
+    (n_columns, kind): (usize, Rows),
+) -> Result<Cells, DataError> {
     let lines: Vec<&str> = text.lines().collect();
     // The reader counts comments above a row to the row.
     let place = |position: Option<&csv::Position>| {
@@ -403,43 +524,66 @@ fn cells(
         let above = lines.iter().skip(first.saturating_sub(1));
         (first + above.take_while(|line| is_comment(line)).count()) as u64
     };
-    let row = |record: csv::Result<csv::StringRecord>| {
-        let record = record.map_err(|error| {
-            let line = place(error.position());
-            DataError::new(name, error).in_line(line)
-        })?;
+    let mut cells = Cells::new(n_columns);
+    let mut reader = reader(text, separator);
+    let mut record = csv::StringRecord::new();
+    loop {
+        match reader.read_record(&mut record) {
+            Ok(true) => {}
+            Ok(false) => return Ok(cells),
+            Err(error) => {
+                let line = place(error.position());
+                return Err(DataError::new(name, error).in_line(line));
+            }
+        }
         let line = place(record.position());
-        let mut cells: Vec<String> = record.iter().map(str::to_string).collect();
         // Spreadsheets end rows with empty cells.
-        while cells.len() > n_columns && cells.last().is_some_and(String::is_empty) {
-            cells.pop();
+        let n_empty = record.iter().rev().take_while(|cell| cell.is_empty()).count();
+        let fits = record.len() >= n_columns && record.len() - n_empty <= n_columns;
+        if kind == Rows::Even && !fits {
+            let n_cells = (record.len() - n_empty).max(record.len().min(n_columns));
+            let message = format!("{n_cells} cells below a header of {n_columns}");
+            let error = DataError::new(name, message).in_line(line);
+            return Err(error.with_help("every row has as many cells as the header"));
         }
-        if cells.len() == n_columns {
-            return Ok((line, cells));
-        }
-        let message = format!("{} cells below a header of {n_columns}", cells.len());
-        let error = DataError::new(name, message).in_line(line);
-        Err(error.with_help("every row has as many cells as the header"))
-    };
-    reader(text, separator).into_records().map(row).collect()
+        cells.push(line, record.iter());
+    }
 }
 
 /// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.
-fn split_uncertainties(header: &mut Vec<String>, rows: &mut [(u64, Vec<String>)]) {
-    for column in 0..header.len() {
-        let split = |cells: &[String]| value_and_uncertainty(&cells[column]);
-        let name = uncertainty_of(&header[column]);
-        if header.contains(&name) || !rows.iter().any(|(_, cells)| split(cells).is_some()) {
-            continue;
-        }
-        header.push(name);
-        for (_, cells) in rows.iter_mut() {
-            let [value, uncertainty] =
-                split(cells).unwrap_or_else(|| [cells[column].clone(), String::new()]);
-            cells[column] = value;
-            cells.push(uncertainty);
-        }
+fn split_uncertainties(header: &mut Vec<String>, cells: Cells) -> Cells {
+    let has_two = |column: usize| {
+        (0..cells.n_rows()).any(|row| value_and_uncertainty(cells.cell(row, column)).is_some())
+    };
+    let is_split: Vec<bool> = (0..header.len())
+        .map(|column| !header.contains(&uncertainty_of(&header[column])) && has_two(column))
+        .collect();
+    let columns: Vec<usize> = (0..header.len()).filter(|column| is_split[*column]).collect();
+    if columns.is_empty() {
+        return cells;
     }
+    header
+        .extend(columns.iter().map(|column| uncertainty_of(&header[*column])).collect::<Vec<_>>());
+    let mut all = Cells::new(header.len());
+    for row in 0..cells.n_rows() {
+        let mut values = cells.row(row);
+        for &column in &columns {
+            let found = value_and_uncertainty(&values[column]);
+            let [value, uncertainty] =
+                found.unwrap_or_else(|| [values[column].clone(), String::new()]);
+            values[column] = value;
+            values.push(uncertainty);
+        }
+        all.push(cells.line(row), values.iter().map(String::as_str));
+    }
+    all
+}
+
+/// Returns the number of digits after the decimal point, less the exponent.
+fn decimals(number: &str) -> i32 {
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    let digits = mantissa.split_once('.').map_or(0, |(_, after)| after.len() as i32);
+    digits - exponent.parse::<i32>().unwrap_or(0)
 }
 
 /// Returns the column of a name, which may lack the unit if only one column fits.

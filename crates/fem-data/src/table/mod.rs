@@ -6,20 +6,20 @@
 //!             │
 //!             └─ column_roles ─ csv_table ─┬── restitution_table
 //!                speed_cm_s     CSV        ├── sweep_table: results of sweeps, values of swept keys
-//!                                          ├── moduli: storage and loss over frequency (temperature_blocks)
-//!                                          └── number_columns: long records
+//!                                          └── moduli: storage and loss over frequency (temperature_blocks)
 //! ```
 //!
 //! Callers pass texts and their names; nothing is opened here.
 
+mod cells;
 mod column_roles;
 mod csv_dialect;
 mod csv_table;
 mod data_error;
 mod library_data;
 mod moduli;
-mod number_columns;
 mod pairs;
+mod preamble;
 mod quantity;
 mod restitution_table;
 mod restitutions;
@@ -27,11 +27,10 @@ mod sweep_table;
 mod temperature_blocks;
 
 pub use csv_dialect::decode;
-pub use csv_table::Table;
+pub use csv_table::{NumberColumn, Table};
 pub use data_error::DataError;
 pub use library_data::{is_of_library, library_table};
 pub use moduli::{Modulus, ModulusPoint, ModulusTable, TestKind};
-pub use number_columns::{NumberColumn, NumberColumns};
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, Measured, NotMeasured, impossible_restitution, parse_measured};
 pub use restitutions::{

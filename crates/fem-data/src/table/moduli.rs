@@ -12,7 +12,7 @@ use super::column_roles::{
 use super::csv_dialect::column_name;
 use super::csv_table::Table;
 use super::data_error::DataError;
-use super::number_columns::without_preamble;
+use super::preamble::without_preamble;
 use super::temperature_blocks::with_temperature_column;
 
 /// Temperatures of measurements, K.

@@ -2,7 +2,7 @@
 
 use crate::estimate::{deviation_by_median, median};
 use crate::instruments::roles::{HEIGHT_UNCERTAINTIES, HEIGHTS, TIMES};
-use crate::table::{DataError, NumberColumns};
+use crate::table::{DataError, Table};
 
 /// A frame this many times the noise and the usual curvature above its neighbours is wrong.
 const SPIKE: f64 = 10.0;
@@ -27,18 +27,15 @@ impl Frames {
     ///
     /// # Errors
     /// A column is missing, a cell is no number, or the times do not increase.
-    pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let require = |names: &[&str], help| columns.require(names, names[0], help);
-        let time = require(&TIMES, "name a column time_s, or write --columns time=COLUMN")?;
-        let height =
-            require(&HEIGHTS, "name a column y_m or y_cm, or write --columns height=COLUMN")?;
+    pub fn read(columns: &Table) -> Result<Self, DataError> {
+        let time = columns.require(&TIMES, "time_s")?;
+        let height = columns.require(&HEIGHTS, "y_m or y_cm")?;
         let [times, heights] =
             [columns.numbers(time, [0, 0, 1])?.values, columns.numbers(height, [1, 0, 0])?.values];
         let uncertainties = match columns.find(&HEIGHT_UNCERTAINTIES)? {
             Some(column) => columns.numbers(column, [1, 0, 0])?.values,
             None => vec![1.0; times.len()],
         };
-        let lines = columns.lines();
         let mut frames = Self {
             name: columns.name().to_string(),
             times: Vec::new(),
@@ -50,12 +47,11 @@ impl Frames {
             if !time.is_finite() || !height.is_finite() || !uncertainty.is_finite() {
                 continue;
             }
-            let fault = |message: String| DataError::new(&frames.name, message).in_line(lines[k]);
             let help = "the frames of one track are in order; keep each track in a file of its own";
             columns.check_increase(k, frames.times.last(), time, help)?;
             if uncertainty <= 0.0 {
                 let help = "it must be greater than 0, or the column is left out";
-                return Err(fault("the uncertainty of the height".to_string()).with_help(help));
+                return Err(columns.fault(k, "the uncertainty of the height").with_help(help));
             }
             frames.times.push(time);
             frames.heights.push(height);

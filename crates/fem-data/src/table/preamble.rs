@@ -1,0 +1,77 @@
+//! Lines above the header of a record: settings of an oscilloscope, the name of a mass, a title.
+
+use std::borrow::Cow;
+
+use super::csv_dialect::{is_missing, is_unit, with_point};
+
+/// Lines in which the first row of numbers is searched.
+const SEARCHED: usize = 500;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Separator {
+    Blanks,
+    One(char),
+}
+
+impl Separator {
+    /// Returns the separator of a row of numbers.
+    fn of(line: &str) -> Self {
+        match [';', '\t', ','].into_iter().find(|separator| line.contains(*separator)) {
+            Some(separator) => Self::One(separator),
+            None => Self::Blanks,
+        }
+    }
+
+    fn cells(self, line: &str) -> impl Iterator<Item = &str> {
+        let (by_blanks, by_one) = match self {
+            Self::Blanks => (Some(line.split_whitespace()), None),
+            Self::One(separator) => (None, Some(line.split(separator))),
+        };
+        let cells = by_blanks.into_iter().flatten().chain(by_one.into_iter().flatten());
+        cells.map(|cell| cell.trim().trim_matches('"'))
+    }
+}
+
+fn is_number(cell: &str) -> bool {
+    with_point(cell).parse::<f64>().is_ok()
+}
+
+/// Returns the text with the lines above the header made comments, so that all lines keep their numbers.
+pub(super) fn without_preamble(text: &str) -> Cow<'_, str> {
+    let lines: Vec<&str> = text.lines().take(SEARCHED).collect();
+    let is_row = |line: &str| {
+        let mut cells = Separator::of(line).cells(line).filter(|cell| !cell.is_empty()).peekable();
+        cells.peek().is_some() && cells.all(|cell| is_number(cell) || is_missing(cell))
+    };
+    let n_cells = |line: &str, separator: Separator| separator.cells(line).count();
+    let Some(first) = (0..lines.len()).find(|k| {
+        let separator = Separator::of(lines[*k]);
+        let n_next = lines.get(k + 1).map(|next| n_cells(next, separator));
+        is_row(lines[*k])
+            && separator.cells(lines[*k]).any(is_number)
+            && n_next.is_none_or(|n| n <= 1 || n == n_cells(lines[*k], separator))
+    }) else {
+        return text.into();
+    };
+    let separator = Separator::of(lines[first]);
+    let is_header = |k: &usize| {
+        n_cells(lines[*k], separator) == n_cells(lines[first], separator)
+            && !lines[*k].trim().is_empty()
+            && !lines[*k].starts_with('#')
+            && !is_row(lines[*k])
+    };
+    let Some(last) = first.checked_sub(1).filter(is_header) else { return text.into() };
+    let is_units = separator.cells(lines[last]).any(is_unit)
+        && separator.cells(lines[last]).all(|cell| is_missing(cell) || is_unit(cell));
+    let above = last.checked_sub(1).filter(|above| is_units && is_header(above));
+    let header = above.unwrap_or(last);
+    let is_comment = |line: &&str| line.starts_with('#') || line.trim().is_empty();
+    if lines[..header].iter().all(is_comment) {
+        return text.into();
+    }
+    let commented = |(k, line): (usize, &str)| match k < header {
+        true => format!("#{line}\n"),
+        false => format!("{line}\n"),
+    };
+    text.lines().enumerate().map(commented).collect::<String>().into()
+}
