@@ -244,10 +244,9 @@ struct CandidateVerdict {
 /// tolerance but for an effect whose error none knows.
 fn closest(judged: &[CandidateVerdict]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
-    let order = |judged: &CandidateVerdict| (judged.n_unknown, judged.is_advised);
-    let closest = possible.min_by(|(_, a), (_, b)| {
-        let by_error = a.excess.max(1.0).total_cmp(&b.excess.max(1.0));
-        order(a).cmp(&order(b)).then(by_error)
+    // Positive floats are in the order of their bits.
+    let closest = possible.min_by_key(|(_, judged)| {
+        (judged.n_unknown, judged.is_advised, judged.excess.max(1.0).to_bits())
     });
     closest.map_or(judged.len() - 1, |(k, _)| k)
 }
@@ -267,14 +266,13 @@ impl Candidate {
                     .then(|| "cannot write the requested snapshots or probes".to_string())
             });
         let mut error = self.own_error(scene, estimate, has_fields);
-        let (mut worst, mut unknown, mut advice, mut n_unknown) = (None, None, None, 0);
+        let (mut worst, mut unknown, mut advice) = (None, Vec::new(), None);
         for effect in EFFECTS {
             let found = effect.adequacy(&model);
             impossible = impossible.or(found.impossible);
             advice = found.advice.or(advice);
             let Some(change) = found.error else {
-                unknown = unknown.or(Some(effect.name()));
-                n_unknown += 1;
+                unknown.push(effect.name());
                 continue;
             };
             error = error.plus(change);
@@ -285,11 +283,12 @@ impl Candidate {
         }
         let total = excess(&error, scene, estimate);
         let (is_possible, is_advised) = (impossible.is_none(), advice.is_some());
-        let rejection_reason = impossible.or_else(|| inaccuracy(unknown, worst, total)).or(advice);
-        let error = if n_unknown > 0 { QuantityErrors::default() } else { error };
+        let rejection_reason =
+            impossible.or_else(|| inaccuracy(unknown.first().copied(), worst, total)).or(advice);
+        let error = if unknown.is_empty() { error } else { QuantityErrors::default() };
         CandidateVerdict {
             error: (&error).into(),
-            n_unknown,
+            n_unknown: unknown.len(),
             is_advised,
             excess: total,
             is_possible,
