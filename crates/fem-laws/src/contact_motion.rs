@@ -38,15 +38,12 @@
 //! when it needs more than 100 000 steps.
 
 use crate::error::{LawError, positive};
-use crate::impact::{Impact, ImpactInstant};
+use crate::impact::{AT_REST, Impact, ImpactInstant};
 use crate::laws::{ContactLaw, EndRule, Rebound};
 use crate::numerics::bisection::falling_zero;
 use crate::numerics::runge_kutta::{Integrator, after_step};
 use crate::pair::Pair;
 use crate::plate::SINKING_LAMBDA;
-
-/// Relative energy below which nothing comes back: restitutions below 1e-8.
-const STUCK: f64 = 1e-16;
 
 const MAX_STEPS: usize = 100_000;
 
@@ -201,7 +198,7 @@ impl<'a> ContactMotion<'a> {
     /// Returns whether motion, contact and weight have not enough energy, of the initial one, to part.
     fn is_stuck(&self, [x, v, ..]: State) -> bool {
         let energy = |stored: f64| v * v + 2.0 * stored - 2.0 * self.gravity * self.height(x);
-        self.stored(x).is_some_and(|stored| energy(stored) < STUCK)
+        self.stored(x).is_some_and(|stored| energy(stored) < AT_REST * AT_REST)
     }
 
     /// Returns the rates by the clock s.
@@ -243,9 +240,7 @@ impl<'a> ContactMotion<'a> {
                 let margin = |state| self.margin(end_rule, state);
                 let end = self.before_fall((&from, &to, step), margin).unwrap_or(to);
                 self.record(&mut impact, end, self.stored(end[0]).unwrap_or_default());
-                impact.contact_time = Some(end[2] * self.time);
-                impact.restitution = -end[1];
-                return Ok(impact);
+                return Ok(impact.parted(-end[1], end[2] * self.time));
             }
             if self.is_denting() {
                 to = widest.unwrap_or(to);

@@ -95,15 +95,13 @@ pub(crate) fn collide(
             ..ImpactInstant::first_touch(speed, false, true)
         });
     }
-    let end = history.last().filter(|_| is_over);
-    Ok(Impact {
-        restitution: end.map_or(0.0, |end| -end.approach_rate / speed),
-        contact_time: end.map(|end| end.time),
-        peak_force,
-        max_approach: turn,
-        max_contact_radius: radius(turn),
-        peak_pressure: None,
-        history,
+    let end = history.last().filter(|_| is_over).copied();
+    let (max_approach, max_contact_radius) = (turn, radius(turn));
+    let impact =
+        Impact { peak_force, max_approach, max_contact_radius, history, ..Impact::default() };
+    Ok(match end {
+        Some(end) => impact.parted(-end.approach_rate / speed, end.time),
+        None => impact,
     })
 }
 

@@ -72,7 +72,7 @@ pub use finite_size::FiniteSize;
 pub use hertz::{
     AxisStress, HertzImpact, HertzInstant, HertzPressure, StaticHertz, contact_time_coefficient,
 };
-pub use impact::{Impact, ImpactInstant, ImpactPath, ImpactQuantities};
+pub use impact::{Impact, ImpactInstant, ImpactPath, ImpactQuantities, MIN_RESTITUTION};
 pub use law_impact::LawImpact;
 pub use laws::EndRule;
 pub use numerics::bisection;

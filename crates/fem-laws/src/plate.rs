@@ -34,8 +34,9 @@ use crate::error::LawError;
 use crate::hertz::HertzImpact;
 use crate::numerics::functions::power;
 
-/// λ from which a ball sinks in with the plate: the restitution by Zener's equation is then below 1e-8.
-pub const SINKING_LAMBDA: f64 = 40.0;
+/// λ from which a ball sinks in with the plate: the restitution by Zener's equation, 0.679 λ⁻⁵, is then below
+/// [`MIN_RESTITUTION`](crate::MIN_RESTITUTION).
+pub const SINKING_LAMBDA: f64 = 3.7;
 
 /// d ln e/dλ at small λ, ⅘ (5/4)^(8/5) B(8/5, ½).
 pub const LOSS_PER_LAMBDA: f64 = 1.7302;

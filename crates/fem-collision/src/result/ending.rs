@@ -1,5 +1,6 @@
 //! The end of a run: separation, rest, or the reason why it stopped earlier.
 
+use fem_laws::MIN_RESTITUTION;
 use fem_material::engineering::{number, show};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -285,6 +286,14 @@ pub enum Ending {
 const ROUNDING: f64 = 1e-9;
 
 impl Ending {
+    /// Returns the ending of bodies that have separated at a rate, m/s: they count as together below [`MIN_RESTITUTION`].
+    pub fn parted(rate_of_separation: f64, approach_speed: f64) -> Self {
+        match rate_of_separation < MIN_RESTITUTION * approach_speed {
+            true => Self::Together,
+            false => Self::Parted,
+        }
+    }
+
     /// Returns the restitution: rate of separation over approach speed for bodies that have separated, 0 for bodies that
     /// stay together, and `None` for a run that was stopped.
     pub fn restitution(&self, rate_of_separation: f64, approach_speed: f64) -> Option<f64> {

@@ -33,18 +33,14 @@
 //!
 //! For a ball with a weight, F − m g replaces F.
 //!
-//! Bodies in contact stay together if the energy bounds e by 1e-4, or if the momentum bounds it by 1e-3 and the energy by
-//! 0.03.
+//! Bodies in contact stay together if the energy bounds e by [`MIN_RESTITUTION`], or if the momentum bounds it by that and the energy
+//! by 0.03.
 
+use fem_laws::MIN_RESTITUTION;
 use serde::{Deserialize, Serialize};
 
 use crate::request::Frame;
 
-/// If the energy that is left bounds the restitution by this, the bodies stay together.
-const NOTHING_LEFT: f64 = 1e-4;
-/// If the impulse that is left bounds the restitution by this, the bodies stay together. Liquid bridges of discrete
-/// elements separate bodies with 1e-4.
-const AT_REST: f64 = 1e-3;
 /// Largest bound by energy for bodies that are at rest by their momentum.
 const MAX_BOUND_BY_ENERGY: f64 = 0.03;
 /// A ball is at its static approach if its rate is below this fraction of the largest one.
@@ -84,8 +80,8 @@ pub struct RelativeMotion {
 /// let mut rest = RestCriterion::new(&frame);
 /// let mut now = RelativeMotion { time: 1e-3, is_closed: true, force: 1e-2, rate: 1.0, inner_energy: 0.0 };
 /// assert!(!rest.observe(&now));
-/// // The remaining energy can separate them with at most 1e-4 of the speed.
-/// now.rate = 1e-4;
+/// // The remaining energy can separate them with less than 1e-3 of the speed.
+/// now.rate = 1e-3;
 /// assert!(rest.observe(&now));
 /// # Ok::<(), fem_collision::ApproachError>(())
 /// ```
@@ -101,7 +97,7 @@ pub struct RestCriterion {
     since: Option<f64>,
     /// Largest rate of the approach so far, m/s.
     fastest: f64,
-    /// Time from which the energy bounds e by 1e-4, s after first touch.
+    /// Time from which the energy bounds e by [`MIN_RESTITUTION`], s after first touch.
     proved: Option<f64>,
 }
 
@@ -128,11 +124,12 @@ impl RestCriterion {
         let force = if self.weight > 0.0 { (now.force - self.weight).abs() } else { now.force };
         let by_energy = |restitution: f64| left < restitution * restitution * initial;
         let by_momentum = || now.rate.abs() + force * now.time / self.reduced_mass;
-        let is_at_rest = by_energy(MAX_BOUND_BY_ENERGY) && by_momentum() < AT_REST * self.speed;
+        let is_at_rest =
+            by_energy(MAX_BOUND_BY_ENERGY) && by_momentum() < MIN_RESTITUTION * self.speed;
         self.since = is_at_rest.then(|| self.since.unwrap_or(now.time));
         let lasts =
             self.since.is_some_and(|since| now.time - since >= REST_DURATION_SHARE * now.time);
-        let is_proved = by_energy(NOTHING_LEFT);
+        let is_proved = by_energy(MIN_RESTITUTION);
         self.proved = is_proved.then(|| self.proved.unwrap_or(now.time));
         self.fastest = self.fastest.max(now.rate);
         // The energy of a falling ball is lost early, but the ball still has to sink to its static approach.
@@ -220,7 +217,10 @@ mod tests {
                 let found = collide(spring, time, |now| rest.observe(now), 5_000_000);
                 let exact = collide(spring, time, |_| false, 5_000_000).unwrap_or_default();
                 let found = found.expect("it parts or stays");
-                assert!((found - exact).abs() < AT_REST, "{spring} {time}: {found} for {exact}");
+                assert!(
+                    (found - exact).abs() < MIN_RESTITUTION,
+                    "{spring} {time}: {found} for {exact}"
+                );
             }
         }
     }

@@ -10,6 +10,7 @@ use fem_collision::{
     PostContactVibration, Progress, RelativeMotion, RestCriterion, STEPS_BETWEEN_REPORTS,
     StepInstant, Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
+use fem_laws::SINKING_LAMBDA;
 
 use crate::contact::pressure::Pressures;
 use crate::motion::{ImpactMotion, MotionEnergies};
@@ -33,9 +34,9 @@ const MAX_WITHIN_STEP: f64 = 8.0;
 
 /// Largest number of steps for which memory is reserved at the beginning.
 const MAX_RESERVED: usize = 1 << 16;
-/// If a plate takes this many elastic contact times to stop a ball, β m*, the ball does not leave it: Zener's λ is 10, where
-/// the restitution is 7e-6 (`fem_laws::plate_mobility`), and Hertz' contact lasts 3.218 of its units of time.
-const SINKING_TIME: f64 = 10.0 / 3.218;
+/// If a plate takes this many elastic contact times to stop a ball, β m*, the ball does not leave it: Hertz' contact lasts 3.218 of its
+/// units of time.
+const SINKING_TIME: f64 = SINKING_LAMBDA / 3.218;
 
 /// A collision that is being computed.
 pub(crate) struct ImpactRun<'a> {
@@ -374,6 +375,10 @@ impl<'a> ImpactRun<'a> {
 
     /// Returns the collision of the run with its ending.
     fn finish(mut self, ending: Ending) -> FinishedRun {
+        let ending = match ending {
+            Ending::Parted => Ending::parted(self.rate_of_separation(), self.frame.speed()),
+            other => other,
+        };
         let bodies = self.body_results(&ending);
         let history = self.history_rows(&ending);
         let (motion, frame) = (&self.motion, self.frame);
@@ -416,10 +421,13 @@ impl<'a> ImpactRun<'a> {
         FinishedRun { collision, trace: self.trace }
     }
 
-    /// Returns the restitution, with the rate at the end of the contact.
+    /// Returns the rate of separation at the end of the contact, m/s.
+    fn rate_of_separation(&self) -> f64 {
+        self.frame.gravity * (self.motion.time() - self.last_contact) - self.motion.rate
+    }
+
     fn restitution(&self, ending: &Ending) -> Option<f64> {
-        let fallen = self.frame.gravity * (self.motion.time() - self.last_contact);
-        ending.restitution(fallen - self.motion.rate, self.frame.speed())
+        ending.restitution(self.rate_of_separation(), self.frame.speed())
     }
 
     /// Returns the results of both bodies.

@@ -4,8 +4,8 @@
 //! size, and each crossing is refined. There may be several: a solid that does not flow loses most at
 //! the rate that matches the contact time, and less on both sides of it.
 
-use fem_laws::ParameterRole;
 use fem_laws::bisection::falling_zero;
+use fem_laws::{MIN_RESTITUTION, ParameterRole};
 
 use crate::estimate::error::FitError;
 use crate::estimate::model::Model;
@@ -24,8 +24,6 @@ const DECADES: f64 = 8.0;
 /// Decades of a rate that are scanned; the loss of Ting's model falls on both sides.
 const DECADES_OF_A_RATE: f64 = 5.0;
 const STEPS_PER_DECADE: f64 = 4.0;
-/// Smaller restitutions count as 0.
-const MIN_RESTITUTION: f64 = 1e-7;
 /// Error of the restitution at a crossing that is a jump of the law.
 const JUMP: f64 = 1e-6;
 /// Number of steps over the limits of a plain number.

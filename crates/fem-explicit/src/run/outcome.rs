@@ -14,7 +14,17 @@ use crate::state::State;
 
 /// Returns the collision of a run with its ending.
 pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> Collision {
-    let velocity_after = velocities_after(model, &run, &ending);
+    let parted = velocities_after(model, &run).filter(|_| ending == Ending::Parted);
+    let ending = match parted {
+        Some([lower, upper]) => Ending::parted(upper - lower, model.approach().speed()),
+        None => ending,
+    };
+    let velocity_after = match ending {
+        Ending::Parted => parted,
+        // The velocity of the common mass centre.
+        Ending::Together | Ending::AtRest => Some(model.frame().velocities(0.0)),
+        Ending::Stopped(_) => None,
+    };
     let mut bodies = body_results(model, &run, &ending, velocity_after);
     let warnings_of_run = run_warnings(model, &run, &ending);
     let RunState { mut state, log, ledger, sampled, history, recorder, probes, .. } = run;
@@ -77,19 +87,13 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
     }
 }
 
-/// Returns the velocities of both mass centres after the contact, m/s; `None` after a stop.
-fn velocities_after(model: &ExplicitBodies, run: &RunState, ending: &Ending) -> Option<[f64; 2]> {
-    match ending {
-        Ending::Parted => run.sampled.last.map(|row| {
-            // Without the acceleration during the flight since the end of the contact.
-            let flight = run.log.last_contact.map_or(0.0, |last| row.time - last);
-            [0, 1]
-                .map(|side: usize| row.velocity[side] - model.bodies()[side].acceleration * flight)
-        }),
-        // The velocity of the common mass centre.
-        Ending::Together | Ending::AtRest => Some(model.frame().velocities(0.0)),
-        Ending::Stopped(_) => None,
-    }
+/// Returns the velocities of both mass centres after the contact, m/s.
+fn velocities_after(model: &ExplicitBodies, run: &RunState) -> Option<[f64; 2]> {
+    run.sampled.last.map(|row| {
+        // Without the acceleration during the flight since the end of the contact.
+        let flight = run.log.last_contact.map_or(0.0, |last| row.time - last);
+        [0, 1].map(|side: usize| row.velocity[side] - model.bodies()[side].acceleration * flight)
+    })
 }
 
 /// Returns the results of both bodies.

@@ -6,6 +6,13 @@ mod quantities;
 pub use path::ImpactPath;
 pub use quantities::ImpactQuantities;
 
+/// Restitution below which bodies count as staying together, in every model: they part with less than a thousandth of their speed of
+/// approach, as slowly as bodies of elements creep that have come to rest.
+pub const MIN_RESTITUTION: f64 = 1e-3;
+
+/// Share of the speed of approach, by motion and by energy, below which the integration of a law ends: its largest approach is then final.
+pub(crate) const AT_REST: f64 = 1e-6;
+
 /// Summary and history of one collision, from first touch to the end of contact.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Impact {
@@ -55,6 +62,15 @@ pub struct ImpactInstant {
 }
 
 impl Impact {
+    /// Returns the impact with the restitution and the contact time (s) of bodies that part, or stay together where too little of the
+    /// speed comes back.
+    pub(crate) fn parted(self, restitution: f64, contact_time: f64) -> Self {
+        match restitution < MIN_RESTITUTION {
+            true => Self { restitution: 0.0, contact_time: None, ..self },
+            false => Self { restitution, contact_time: Some(contact_time), ..self },
+        }
+    }
+
     /// Returns the quantities of interest with a peak pressure, Pa, which not every model computes.
     pub fn quantities(&self, peak_pressure: f64) -> ImpactQuantities {
         ImpactQuantities {

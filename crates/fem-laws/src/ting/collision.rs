@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::error::LawError;
 use crate::finite_size::FiniteSize;
 use crate::hertz::HertzImpact;
-use crate::impact::{Impact, ImpactInstant};
+use crate::impact::{AT_REST, Impact, ImpactInstant};
 use crate::numerics::bisection::last_where;
 use crate::numerics::functions::power;
 use crate::ting::Ting;
@@ -16,12 +16,6 @@ use crate::ting::step::{Solved, State, Stepper};
 /// Local error of the rate over the tolerance. A collision takes some tens of steps.
 const LOCAL_SHARE: f64 = 0.1;
 
-/// A restitution below this counts as 0, as does the square root of the share of energy that could still return.
-const STUCK: f64 = 1e-8;
-
-/// A restitution below this counts as 0 if rounding errors alone move the bodies: with radiated waves, or if the
-/// rounding error of the force times a large approach stays above [`STUCK`].
-const RESTING: f64 = 1e-6;
 /// Rounding error of a force, relative to the force of the unrelaxed materials: the force is a difference
 /// of terms of that size.
 const OF_ROUNDING: f64 = 1e-13;
@@ -134,16 +128,18 @@ impl<'a> Collision<'a> {
         if let Some(record) = &record {
             self.unload(record, units)?;
         }
-        let parted = record.is_some() && -self.state.rate > STUCK;
         let hertz = self.contact.hertz_approach_of(&turned);
-        Ok(Impact {
-            restitution: if parted { -self.state.rate / first_rate } else { 0.0 },
-            contact_time: parted.then_some(self.state.time * units.time),
+        let impact = Impact {
             peak_force: self.peak_force * units.force,
             max_approach: turned.approach.max(self.max_approach) * units.length,
             max_contact_radius: hertz.sqrt() * units.radius,
             peak_pressure: Some(self.peak_pressure * units.pressure),
             history: self.history.iter().map(|instant| units.dimensional(instant)).collect(),
+            ..Impact::default()
+        };
+        Ok(match record {
+            Some(_) => impact.parted(-self.state.rate / first_rate, self.state.time * units.time),
+            None => impact,
         })
     }
 
@@ -172,7 +168,7 @@ impl<'a> Collision<'a> {
             if turn < 1.0 && !self.rests() {
                 return Ok(Some(Record { steps, end: self.state.time }));
             }
-            if self.rests_at(STUCK) {
+            if self.rests() {
                 return Ok(None);
             }
             let (gravity, State { rate, approach, force, .. }) =
@@ -184,18 +180,13 @@ impl<'a> Collision<'a> {
         }
     }
 
-    /// Returns whether u̇ is rounding and the bodies are at rest, so that this is no turning point.
+    /// Returns whether the bodies are at rest, so that this is no turning point: neither their motion nor the energy that could return
+    /// moves them, or the force is of rounding.
     fn rests(&self) -> bool {
-        self.rests_at(RESTING)
-    }
-
-    /// Returns whether the kinetic and the recoverable energy separate the bodies with no more than a
-    /// restitution, or the force is of rounding.
-    fn rests_at(&self, restitution: f64) -> bool {
         let State { rate, approach, force, .. } = self.state;
-        let is_small = force * approach < restitution * restitution
+        let is_small = force * approach < AT_REST * AT_REST
             || force < OF_ROUNDING * approach * approach.sqrt();
-        rate < STUCK && is_small
+        rate < AT_REST && is_small
     }
 
     /// Computes the unloading to the end of contact, or until the weight turns the ball back.

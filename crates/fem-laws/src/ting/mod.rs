@@ -42,8 +42,8 @@
 //! With gravity, δ̈ = g − F/m*. A ball that turns back while it still touches, or that creeps under its
 //! weight, does not leave any more: it stays. Contacts that grow twice are not followed.
 //!
-//! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8, with waves
-//! 1e-6, is returned as bodies that stay together.
+//! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below [`crate::MIN_RESTITUTION`] is returned as bodies that
+//! stay together.
 
 mod collision;
 mod collocation;

@@ -7,8 +7,8 @@
 
 use fem_case::{Body, Plate, PlateSupport, Scene};
 use fem_laws::{
-    FreePlate, HertzImpact, LOSS_PER_LAMBDA, LawError, Pair, plate_lambda, plate_mobility,
-    plate_wave_travel, rayleigh_wave_speed,
+    FreePlate, HertzImpact, LOSS_PER_LAMBDA, LawError, Pair, SINKING_LAMBDA, plate_lambda,
+    plate_mobility, plate_wave_travel, rayleigh_wave_speed,
 };
 use fem_material::Material;
 
@@ -17,8 +17,6 @@ use crate::estimate::effective_modulus::left_at;
 
 /// c₀T/h from which a plate is thin.
 pub(crate) const THIN: f64 = 10.0;
-/// λ from which a ball leaves a thin plate at less than a thousandth of its speed, e = 0.679 λ⁻⁵, so that the contact lasts.
-const LASTING: f64 = 3.7;
 /// Deflection over the thickness up to which a plate bends without stretching: linear theory holds "where the maximum deflection
 /// does not exceed half the plate thickness" (Case, Chilver & Ross 1999, *Strength of Materials and Structures*, section 19.1).
 pub(crate) const LARGE_DEFLECTION: f64 = 0.5;
@@ -91,7 +89,7 @@ impl<'a> PlateImpact<'a> {
         };
         let edge_return = match plate.diameter {
             None => f64::INFINITY,
-            Some(_) if lambda >= LASTING && !is_thick => 0.0,
+            Some(_) if lambda >= SINKING_LAMBDA && !is_thick => 0.0,
             Some(diameter) => diameter / way(rayleigh_wave_speed(&material)),
         };
         // A dashpot moves by its mobility times the impulse.
@@ -125,6 +123,13 @@ impl<'a> PlateImpact<'a> {
             }
             PlateSupport::Bonded => 0.0,
         }
+    }
+
+    /// Returns whether the plate takes the ball with it, so that the contact lasts.
+    pub fn lasts(&self) -> bool {
+        self.lambda >= SINKING_LAMBDA
+            && self.plate.support == PlateSupport::Free
+            && self.regime != PlateRegime::Thick
     }
 
     /// Returns whether no wave returns within the contact from anywhere, so that the plate is a half-space.

@@ -2,14 +2,16 @@
 //!
 //! The error of a model is estimated before the run. It is the sum of the errors of its own approximations and of the
 //! effects that it lacks ([`Effect::adequacy`]). A model is skipped if it lacks an effect
-//! whose size cannot be estimated, or if its result would come with the advice to use another model.
+//! whose size cannot be estimated, or if its result would come with the advice to use another model. If no model serves, the one
+//! with the fewest effects of unknown size comes closest. Where bodies flow the mean-pressure law is the last candidate.
 
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, defaults};
 use fem_collision::QuantityOfInterest;
+use fem_laws::{LawFamily, LawInput};
 use serde::Serialize;
 
 use super::method_of;
-use crate::effects::{self, EFFECTS, Effect, Support};
+use crate::effects::{self, EFFECTS, Effect, PlasticFlow, Support};
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
@@ -109,11 +111,14 @@ impl SelectedModel {
         }
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
-        let mut judged = CANDIDATES.each_ref().map(|candidate| candidate.judge(scene, &estimate));
+        let flows = PlasticFlow::is_on(scene, &estimate);
+        let candidates = if flows { &CANDIDATES[..] } else { &CANDIDATES[..FLOWING] };
+        let mut judged: Vec<CandidateVerdict> =
+            candidates.iter().map(|candidate| candidate.judge(scene, &estimate)).collect();
         let (serves, best) = loop {
             let serves = judged.iter().position(|judged| judged.rejection_reason.is_none());
             let best = serves.unwrap_or_else(|| closest(&judged));
-            let chosen = scene.clone().with_model((CANDIDATES[best].choice)());
+            let chosen = scene.clone().with_model((candidates[best].choice)());
             let method = method_of(&chosen);
             match method.check(&chosen).and_then(|()| method.expected(&chosen)) {
                 // The next one may compute what this one would stop at or reject.
@@ -124,8 +129,8 @@ impl SelectedModel {
                 _ => break (serves, best),
             }
         };
-        let excess = judged[best].excess;
-        let considered = judged.into_iter().zip(&CANDIDATES).enumerate();
+        let CandidateVerdict { n_unknown, excess, .. } = judged[best];
+        let considered = judged.into_iter().zip(candidates).enumerate();
         let considered: Vec<ModelCandidate> = considered
             .map(|(k, (judged, candidate))| ModelCandidate {
                 model: candidate.name,
@@ -139,9 +144,9 @@ impl SelectedModel {
                 },
             })
             .collect();
-        let scene = scene.clone().with_model((CANDIDATES[best].choice)());
+        let scene = scene.clone().with_model((candidates[best].choice)());
         let warning = serves.is_none().then(|| {
-            let error = match excess.is_finite() {
+            let error = match n_unknown == 0 && excess.is_finite() {
                 true => format!("with an expected error of {excess:.1} times the tolerance"),
                 false => "with an error that is not known".to_string(),
             };
@@ -168,8 +173,11 @@ const JUDGED_QUANTITIES: [QuantityOfInterest; 4] = [
     QuantityOfInterest::PeakPressure,
 ];
 
-/// The candidates, from the cheapest to the most expensive.
-const CANDIDATES: [Candidate; 6] = [
+/// The index of the candidate for bodies that flow, which elements may refuse.
+const FLOWING: usize = 6;
+
+/// The candidates, from the cheapest to the most expensive, and the law of bodies that flow.
+const CANDIDATES: [Candidate; FLOWING + 1] = [
     Candidate {
         name: "hertz = {}",
         choice: || ModelChoice::Hertz { finite_size: false },
@@ -203,6 +211,15 @@ const CANDIDATES: [Candidate; 6] = [
         choice: || ModelChoice::Fem,
         own_errors: [2e-4, 1.5e-3, 3e-3, 1e-2],
     },
+    Candidate {
+        name: "law = { mean_pressure = {} }",
+        choice: || ModelChoice::Law {
+            law: LawInput { family: LawFamily::MeanPressure, values: Vec::new() },
+            end_rule: defaults::LAW_END,
+            tolerance: defaults::LAW_TOLERANCE,
+        },
+        own_errors: [0.0; 4],
+    },
 ];
 
 /// Share of the default tolerances down to which meshes are made as fine as a case asks.
@@ -211,18 +228,26 @@ const MIN_SHARE_OF_TOLERANCE: f64 = 0.05;
 /// The expected error of a candidate.
 struct CandidateVerdict {
     error: ExpectedError,
-    /// Largest error over its tolerance; infinite if the error is unknown.
+    /// Number of effects whose error is unknown.
+    n_unknown: usize,
+    /// Largest known error over its tolerance.
     excess: f64,
+    /// Whether a result would come with the advice to use another model.
+    is_advised: bool,
     /// Whether the model can compute the scene at any tolerance.
     is_possible: bool,
     /// Why the model is not suitable.
     rejection_reason: Option<String>,
 }
 
-/// Returns the index of the most accurate candidate that is possible, and the most complete one where no error is known.
+/// Returns the index of the most complete candidate that is possible: of the most accurate one, or of the cheapest within the
+/// tolerance but for an effect whose error none knows.
 fn closest(judged: &[CandidateVerdict]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
-    let closest = possible.rev().min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
+    // Positive floats are in the order of their bits.
+    let closest = possible.min_by_key(|(_, judged)| {
+        (judged.n_unknown, judged.is_advised, judged.excess.max(1.0).to_bits())
+    });
     closest.map_or(judged.len() - 1, |(k, _)| k)
 }
 
@@ -241,13 +266,13 @@ impl Candidate {
                     .then(|| "cannot write the requested snapshots or probes".to_string())
             });
         let mut error = self.own_error(scene, estimate, has_fields);
-        let (mut worst, mut unknown, mut advice) = (None, None, None);
+        let (mut worst, mut unknown, mut advice) = (None, Vec::new(), None);
         for effect in EFFECTS {
             let found = effect.adequacy(&model);
             impossible = impossible.or(found.impossible);
             advice = found.advice.or(advice);
             let Some(change) = found.error else {
-                unknown = unknown.or(Some(effect.name()));
+                unknown.push(effect.name());
                 continue;
             };
             error = error.plus(change);
@@ -257,13 +282,18 @@ impl Candidate {
             }
         }
         let total = excess(&error, scene, estimate);
-        let is_possible = impossible.is_none();
-        let rejection_reason = impossible.or_else(|| inaccuracy(unknown, worst, total)).or(advice);
-        let (error, excess) = match unknown {
-            Some(_) => (QuantityErrors::default(), f64::INFINITY),
-            None => (error, total),
-        };
-        CandidateVerdict { error: (&error).into(), excess, is_possible, rejection_reason }
+        let (is_possible, is_advised) = (impossible.is_none(), advice.is_some());
+        let rejection_reason =
+            impossible.or_else(|| inaccuracy(unknown.first().copied(), worst, total)).or(advice);
+        let error = if unknown.is_empty() { error } else { QuantityErrors::default() };
+        CandidateVerdict {
+            error: (&error).into(),
+            n_unknown: unknown.len(),
+            is_advised,
+            excess: total,
+            is_possible,
+            rejection_reason,
+        }
     }
 
     /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.

@@ -101,7 +101,8 @@ pub(crate) fn graded_plate(
     material: &Material,
 ) -> GradedPlate {
     let own_radius = plate.diameter.map_or(f64::INFINITY, |diameter| 0.5 * diameter);
-    let time = plan.estimate.contact_time;
+    // A contact that lasts on a plate begins with waves as short as those of a free one.
+    let time = plan.estimate.contact_time.min(plan.estimate.hertz.contact_time());
     let moduli = material.instantaneous();
     // k⁴ = ω²ρh/D.
     let inertia_per_stiffness =

@@ -2,6 +2,7 @@
 
 use fem_case::Case;
 use fem_collision::{Ending, OutputRequest, STAY_TOGETHER, SnapshotInstant};
+use fem_laws::MIN_RESTITUTION;
 use fem_simulation::{Cost, Simulation};
 
 use crate::scene::{GLASS, case_of};
@@ -80,6 +81,54 @@ fn flowing_bodies_have_the_same_result_in_all_models() {
     // With an equilibrium stiffness they act as soft bodies.
     let soft = simulation("ting", "all", 0.9999, "1 ns").run(&mut ());
     assert!(soft.restitution.unwrap() > 0.5, "{:?}", soft.restitution);
+}
+
+/// A ball of glass on a steel plate that takes 0.999 of its speed if it is 0.2 mm thick.
+const FOIL: &str = r#"
+    [material]
+    glass = { density = 2500, youngs_modulus = "70 GPa", poissons_ratio = 0.23, elastic = true }
+    steel = { density = 7850, youngs_modulus = "206 GPa", poissons_ratio = 0.29, elastic = true }
+    [[body]]
+    name = "foil"
+    plate.thickness = "0.203 mm"
+    material = "steel"
+    [[body]]
+    name = "ball"
+    sphere.diameter = "4 mm"
+    material = "glass"
+    approach_speed = 0.1"#;
+
+/// Bodies that part with more than a thousandth of their speed have a contact time in every model, slower ones in none.
+#[test]
+fn all_models_have_the_same_least_restitution() {
+    let relaxing = ["ting", "condensed", "fem"]
+        .map(|model| [0.99994, 0.99996].map(|weight| case(model, "all", weight, "3 us")));
+    let on_foil = ["hertz={}", "ting={}", "condensed={}", "law.hertz={}"].map(|model| {
+        ["0.203 mm", "0.199 mm"].map(|thickness| {
+            let thickness = format!("body.0.plate.thickness='{thickness}'");
+            case_of(FOIL, &[format!("model.{model}"), thickness])
+        })
+    });
+    // Its closed form has ζ of 15 and 17: e is 1.1e-3 and 0.9e-3.
+    let linear = [15.0, 17.0].map(|ratio| {
+        // With the reduced mass in kg.
+        let damping = 2.0 * ratio * (1e7_f64 * 3.6787e-3).sqrt();
+        case_of(GLASS, &[format!("model.law.linear={{ k=1e7, c={damping} }}")])
+    });
+    for [above, below] in relaxing.into_iter().chain(on_foil).chain([linear]) {
+        let name = above.scene().model().path();
+        let [above, below] = [above, below].map(|case| Simulation::new(case).unwrap().run(&mut ()));
+        let restitution = above.restitution.unwrap();
+        assert!((MIN_RESTITUTION..1.5e-3).contains(&restitution), "{name}: {restitution}");
+        assert_eq!(
+            (&above.ending, above.contact_time.is_some()),
+            (&Ending::Parted, true),
+            "{name}"
+        );
+        assert_eq!((below.restitution, below.contact_time), (Some(0.0), None), "{name}");
+        assert_eq!(below.ending, Ending::Together, "{name}");
+        assert!(below.warnings.iter().any(|text| text == STAY_TOGETHER), "{name}");
+    }
 }
 
 /// The time limit of a run follows from its predicted duration.

@@ -1,6 +1,7 @@
 //! A ball on a plate: the limits of a thick and a thin one, what each model computes, and what it rejects.
 
 use fem_collision::{Account, Collision, QuantityOfInterest};
+use fem_simulation::Cost;
 use fem_simulation::results::Summary;
 
 use crate::scene::{collision_of, decision_on, refused_of, simulation_of, summary_of};
@@ -35,6 +36,9 @@ const MODELS: [&str; 4] = [
 /// A material that relaxes within the contact.
 const RELAXING: &str =
     "material.metal.relaxation={ acts_on='all', terms=[{ weight=0.1, relaxation_time='10 us' }] }";
+
+/// The plate's metal yields.
+const FLOWING: &str = "material.metal={ density=7800, youngs_modulus='210 GPa', poissons_ratio=0.3, yield_strength='300 MPa' }";
 
 fn thickness(metres: f64) -> String {
     format!("body.0.plate.thickness={metres}")
@@ -292,6 +296,46 @@ fn auto_takes_a_model_with_the_plate() {
     // The plate is stiffer than a half-space at the contact, by 0.8 % of the force.
     assert_eq!(chosen(&[]), "fem = {}");
     assert_eq!(chosen(&["body.0.plate.support='bonded'"]), "fem = {}");
+}
+
+/// Where elements cannot mesh a narrow plate on which a body flows, all other models point at the law that flows, and auto takes it.
+#[test]
+fn a_narrow_plate_that_flows_is_left_to_the_law() {
+    let ball = "body.1={ name='ball', sphere.diameter='10 mm', material='lib:steel', approach_speed='1 m/s' }";
+    for plate in ["lib:soda-lime-glass", "lib:aluminium", "lib:steel", "metal"] {
+        let material = format!("body.0.material='{plate}'");
+        let narrow = "body.0.plate={ thickness='6 mm', diameter='12 mm' }";
+        let set = |model: &'static str| [narrow, &material, ball, FLOWING, model].map(String::from);
+        let refused = refused_of(BALL, &set("model.fem={}")).to_string();
+        assert!(refused.contains("too narrow for its thickness"), "{refused}");
+        for model in ["model.condensed={}", "model.ting={}", "model.hertz={}"] {
+            let warnings = simulation_of(BALL, &set(model)).setup().warnings().join("\n");
+            assert!(warnings.contains("is elastic: use law mean_pressure"), "{plate}: {warnings}");
+        }
+        let simulation = simulation_of(BALL, &set("model.auto={}"));
+        let chosen = simulation.considered().iter().find(|one| one.chosen).unwrap();
+        assert_eq!(chosen.model, "law = { mean_pressure = {} }", "{plate}");
+        assert!(chosen.reason.contains("it comes closest"), "{plate}: {}", chosen.reason);
+        let warnings = simulation.setup().warnings().join("\n");
+        assert!(!warnings.contains("is elastic"), "{plate}: {warnings}");
+    }
+}
+
+/// On a plate that takes the whole ball elements would follow it for millions of steps, and beyond linear theory no model knows its error:
+/// auto takes one of milliseconds. A thin plate has rings as fine as the waves of the first touch need.
+#[test]
+fn auto_leaves_a_foil_to_closed_forms() {
+    for (thickness, speed) in [("0.1 mm", "0.1 m/s"), ("0.1 mm", "1 m/s"), ("0.15 mm", "0.2 m/s")] {
+        let set = [
+            format!("body.0.plate.thickness='{thickness}'"),
+            format!(
+                "body.1={{ name='ball', sphere.diameter='4 mm', material='lib:glass', approach_speed='{speed}' }}"
+            ),
+            "model.auto={}".to_string(),
+        ];
+        let simulation = simulation_of(BALL, &set);
+        assert!(matches!(simulation.setup().cost, Cost::ClosedForm { .. }), "{thickness} {speed}");
+    }
 }
 
 /// Every contact of a bouncing ball is on the plate.

@@ -7,13 +7,13 @@ use fem_data::dem::{
 };
 use fem_data::estimate::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
-use fem_laws::{EndRule, LawFamily};
+use fem_laws::{EndRule, LawFamily, MIN_RESTITUTION};
 
 use super::CONFIDENCE;
 use super::chosen_law::{ChosenLaw, model_of};
 use super::impact_curve::ImpactCurve;
 
-/// Restitutions nearer to 0 or 1 do not determine a law.
+/// Restitutions nearer to 1 do not determine a law.
 const LOSSLESS: f64 = 1e-7;
 
 /// The laws of DEM codes, fitted to one curve.
@@ -61,7 +61,7 @@ impl DemExport {
         let n = curve.points.len() as f64;
         // The mean is the best constant e.
         let e = curve.points.iter().map(|point| point.restitution).sum::<f64>() / n;
-        if e < LOSSLESS {
+        if e < MIN_RESTITUTION {
             return Err(FitError::Insensitive { key: "alpha" });
         }
         let is_lossless = e > 1.0 - LOSSLESS;

@@ -26,7 +26,8 @@ const NO_STRETCHING: f64 = 0.05;
 
 /// Changes of the quantities, relative to those of a half-space, over the [local stiffening](PlateImpact::local_stiffening) of a free
 /// plate: the largest of six pairs of steel, glass, PMMA and alumina between condensed bodies and explicit elements. Exact
-/// elastodynamics of layers of 2 to 12 mm has 0.36 to 0.41 in the approach.
+/// elastodynamics of layers of 2 to 12 mm has 0.36 to 0.41 in the approach. On 130 random plates of 0.2 to 6 ball radii the bars hold all
+/// differences from explicit elements, the largest with 0.70 of the bar.
 const OF_LOCAL_STIFFENING: [f64; 6] = [0.0, 0.31, 0.31, 0.42, 0.27, 0.25];
 
 impl PlateBending {
@@ -184,11 +185,17 @@ impl Effect for PlateBending {
         plate.is_dashpot().then(|| Self::change_by_bending(scene, estimate)).flatten()
     }
 
-    /// Every model has the error of its plate theory, and nothing without a plate.
+    /// Every model has the error of its plate theory, and nothing without a plate. That of elements is not known before the run where
+    /// the contact lasts.
     fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
         let fault = Self::check(model.own).err();
         let fault = fault.filter(|_| Self::is_needed(model.own, model.estimate));
-        let error = Self::error_of_term(model.own, model.estimate);
+        let lasts =
+            || PlateImpact::of(model.own, model.estimate).is_some_and(|plate| plate.lasts());
+        let error = match *model.own.model() == ModelChoice::Fem && lasts() {
+            true => None,
+            false => Self::error_of_term(model.own, model.estimate),
+        };
         Adequacy { error, impossible: fault.map(|fault| fault.message), ..Adequacy::FULL }
     }
 

@@ -213,10 +213,12 @@ impl Effect for PlasticFlow {
         Some(NeglectError::of_changes(estimate, first.change()))
     }
 
-    /// Flow that no model computes makes no difference between them.
+    /// Flow that no model computes makes no difference between them. A law that dents has an error of its own.
     fn adequacy(&self, model: &ConsideredModel) -> Adequacy {
-        match Self::of_elements(model.case, model.estimate) {
-            Support::Lacks => Adequacy::FULL,
+        match (Self::of_elements(model.case, model.estimate), law_error(model.own, model.estimate))
+        {
+            (Support::Lacks, _) => Adequacy::FULL,
+            (_, Some(error)) => Adequacy { error: Some(error), ..Adequacy::FULL },
             _ => model.with_or_without(self),
         }
     }

@@ -49,7 +49,9 @@ impl Method for ReducedMethod {
     }
 
     fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
-        effects::support(effect, scene, estimate, None)
+        let reduced = matches!(scene.model(), ModelChoice::Law { .. }).then(|| Reduced::new(scene));
+        let law = reduced.as_ref().and_then(|reduced| reduced.as_ref().ok()?.law());
+        effects::support(effect, scene, estimate, law)
     }
 
     /// Computes the collision, which takes milliseconds.
