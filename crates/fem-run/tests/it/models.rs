@@ -164,7 +164,7 @@ fn law_without_separation_or_end_is_reported() {
     let stuck = summary(&place, &["model.law.power={k=1e9, gamma=1.5, c=1e300, n=5}"]);
     assert_eq!((number(&stuck["restitution"]), stuck["contact_time_s"].is_null()), (0.0, true));
     assert!(stuck["warnings"].to_string().contains("stay together"), "{stuck}");
-    let creep = "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}";
+    let creep = "model.law.linear={k=1e7, c=1e8, end='zero_overlap'}";
     place
         .fails(1, ["case.toml", "--out", "out", "--force", "--set", creep])
         .tells("remedy: lower the damping");
@@ -184,7 +184,7 @@ fn a_sweep_runs_over_models() {
     place.write(
         "sweep.toml",
         "case = 'case.toml'\n[vary]\nmodel = [{ hertz = {} }, { ting = {} }, \
-         { law = { kuwabara_kono = { a = '1 us' } } }, { law = { linear = { k = 1e7, c = 1e9, \
+         { law = { kuwabara_kono = { a = '1 us' } } }, { law = { linear = { k = 1e7, c = 1e8, \
          end = 'zero_overlap' } } }]\n'body.0.approach_speed' = [0.1, 0.5]\n",
     );
     let ran = place.run("sweep sweep.toml --out out");

@@ -232,6 +232,8 @@ struct CandidateVerdict {
     n_unknown: usize,
     /// Largest known error over its tolerance.
     excess: f64,
+    /// Whether elements would take minutes for a result whose error is unknown all the same.
+    is_futile: bool,
     /// Whether a result would come with the advice to use another model.
     is_advised: bool,
     /// Whether the model can compute the scene at any tolerance.
@@ -246,7 +248,8 @@ fn closest(judged: &[CandidateVerdict]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
     // Positive floats are in the order of their bits.
     let closest = possible.min_by_key(|(_, judged)| {
-        (judged.n_unknown, judged.is_advised, judged.excess.max(1.0).to_bits())
+        let CandidateVerdict { n_unknown, is_futile, is_advised, excess, .. } = judged;
+        (*n_unknown, *is_futile, *is_advised, excess.max(1.0).to_bits())
     });
     closest.map_or(judged.len() - 1, |(k, _)| k)
 }
@@ -289,6 +292,7 @@ impl Candidate {
         CandidateVerdict {
             error: (&error).into(),
             n_unknown: unknown.len(),
+            is_futile: !unknown.is_empty() && *own.model() == ModelChoice::Fem,
             is_advised,
             excess: total,
             is_possible,

@@ -325,16 +325,26 @@ fn a_narrow_plate_that_flows_is_left_to_the_law() {
 /// auto takes one of milliseconds. A thin plate has rings as fine as the waves of the first touch need.
 #[test]
 fn auto_leaves_a_foil_to_closed_forms() {
-    for (thickness, speed) in [("0.1 mm", "0.1 m/s"), ("0.1 mm", "1 m/s"), ("0.15 mm", "0.2 m/s")] {
+    let elastic = "material.metal.elastic=true";
+    for (thickness, speed, metal) in [
+        ("0.1 mm", "0.1 m/s", elastic),
+        ("0.1 mm", "1 m/s", elastic),
+        ("0.1 mm", "1 m/s", FLOWING),
+        ("0.15 mm", "0.2 m/s", elastic),
+    ] {
         let set = [
             format!("body.0.plate.thickness='{thickness}'"),
             format!(
                 "body.1={{ name='ball', sphere.diameter='4 mm', material='lib:glass', approach_speed='{speed}' }}"
             ),
+            metal.to_string(),
             "model.auto={}".to_string(),
         ];
         let simulation = simulation_of(BALL, &set);
-        assert!(matches!(simulation.setup().cost, Cost::ClosedForm { .. }), "{thickness} {speed}");
+        assert!(
+            matches!(simulation.setup().cost, Cost::ClosedForm { .. }),
+            "{thickness} {speed} {metal}"
+        );
     }
 }
 
