@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use fem::ComputedCollision;
-use fem::results::{Summary, history_csv, write_snapshots};
+use fem::results::{Summary, history_columns, write_snapshots};
 use fem_command::{Stopwatch, save};
 use fem_vtk::{ReadArray, VtuFile};
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray};
@@ -70,22 +70,10 @@ impl Outcome {
 
     /// Returns the columns of `history.csv`.
     fn history<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray1<f64>>)>> {
-        let mut bytes = Vec::new();
         let scene = self.computed.simulation.case().scene();
-        history_csv(&mut bytes, scene, &self.computed.collision.history).map_err(broken)?;
-        let text = String::from_utf8(bytes).map_err(broken)?;
-        let mut lines = text.lines();
-        let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-        let mut columns =
-            vec![Vec::with_capacity(self.computed.collision.history.len()); names.len()];
-        for line in lines {
-            for (column, cell) in columns.iter_mut().zip(line.split(',')) {
-                // A missing number is an empty cell.
-                column.push(cell.parse().unwrap_or(f64::NAN));
-            }
-        }
-        let columns = columns.into_iter().map(|column| PyArray1::from_vec(py, column));
-        Ok(names.into_iter().map(String::from).zip(columns).collect())
+        let columns = history_columns(scene, &self.computed.collision.history);
+        let array = |(name, numbers): (String, Vec<f64>)| (name, PyArray1::from_vec(py, numbers));
+        Ok(columns.into_iter().map(array).collect())
     }
 
     /// Returns the snapshots: label, time and arrays by name, as in their VTK files.

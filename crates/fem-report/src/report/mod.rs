@@ -36,7 +36,7 @@ pub use history_charts::{
     Quantity, bounce_charts, energy_chart, history_chart, loop_chart, normalised_chart,
 };
 pub use pressure_chart::pressure_chart;
-pub use stored_result::{ReportError, StoredResult};
+pub use stored_result::{Columns, ReportError, StoredResult};
 
 /// The name of the page in a result folder.
 pub const REPORT_FILE: &str = "report.html";

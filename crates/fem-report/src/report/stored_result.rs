@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use fem::results::{CONTACT_FILE, HISTORY_FILE, Parts, SUMMARY_FILE};
+use fem::results::{CONTACT_FILE, HISTORY_FILE, HistoryColumns, Parts, SUMMARY_FILE};
 use fem_collision::QuantityOfInterest;
 use serde::Deserialize;
 use serde_json::Value;
@@ -117,7 +117,9 @@ impl StoredResult {
                     false => no_result(format!("cannot be read: {error}")),
                 }
             })?;
-        Self::of(folder, &text).map_err(|error| no_result(format!("is no summary: {error}")))
+        let history = Columns::read(&folder.join(HISTORY_FILE)).unwrap_or_default();
+        let found = Self::of(folder, &text, history);
+        found.map_err(|error| no_result(format!("is no summary: {error}")))
     }
 
     /// Reads several result folders. Results whose folders have the same name are named by their paths.
@@ -141,13 +143,12 @@ impl StoredResult {
         Ok(results)
     }
 
-    /// Reads a folder whose summary is this text; files that are missing or damaged are left out.
-    pub fn of(folder: &Path, summary: &str) -> Result<Self, String> {
+    /// Reads a folder whose summary and history are known; files that are missing or damaged are left out.
+    pub fn of(folder: &Path, summary: &str, history: Columns) -> Result<Self, String> {
         let summary: Value = serde_json::from_str(summary).map_err(|error| error.to_string())?;
         if summary.get("hertz").is_none() {
             return Err("it is not that of a run".to_string());
         }
-        let history = Columns::read(&folder.join(HISTORY_FILE)).unwrap_or_default();
         let contacts = Columns::read(&folder.join(CONTACT_FILE)).unwrap_or_default();
         let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy();
         Ok(Self {
@@ -294,6 +295,13 @@ pub struct Columns {
     names: Vec<String>,
     numbers: HashMap<String, Vec<f64>>,
     texts: HashMap<String, Vec<String>>,
+}
+
+impl From<HistoryColumns> for Columns {
+    fn from(columns: HistoryColumns) -> Self {
+        let names = columns.iter().map(|(name, _)| name.clone()).collect();
+        Self { names, numbers: columns.into_iter().collect(), texts: HashMap::new() }
+    }
 }
 
 impl Columns {

@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use fem::results::{
-    CONTACT_FILE, DENT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv,
-    dent_csv, has_contact, history_csv, probes_csv, write_snapshots,
+    CONTACT_FILE, DENT_FILE, HISTORY_FILE, HistoryColumns, PROBES_FILE, SUMMARY_FILE, Summary,
+    contact_csv, dent_csv, has_contact, history_columns, history_csv, probes_csv, write_snapshots,
 };
 use fem::{ComputedCollision, Identity, Simulation};
 use fem_case::Keep;
@@ -74,9 +74,11 @@ pub fn write_result(
         Summary::of(simulation, collision, errors, stopwatch.spent(), warnings, files);
     summary.source = place.source();
     let mut missing = None;
+    let mut history = HistoryColumns::new();
     if keep == Keep::All {
+        history = history_columns(simulation.case().scene(), &collision.history);
         let written = reserve_space(folder, &summary)
-            .and_then(|()| write_tables(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_tables(folder, simulation, (collision, &history), &mut summary))
             .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
         missing = written.err();
         let _ = fs::remove_file(folder.join(RESERVE_FILE));
@@ -94,7 +96,7 @@ pub fn write_result(
         Err(error) => return nothing_written(summary, String::new(), &error),
     };
     let (text, missing) = match summary.files.iter().any(|file| file == REPORT_FILE) {
-        true => with_report(folder, &mut summary, text),
+        true => with_report(folder, &mut summary, text, history),
         false => (text, missing),
     };
     if let Err(error) = write_whole(&folder.join(SUMMARY_FILE), folder, text.as_bytes()) {
@@ -109,9 +111,14 @@ pub fn write_result(
 
 /// Writes the report page of a result whose other files exist and whose summary has this text. If the page
 /// cannot be written, the summary says so.
-fn with_report(folder: &Path, summary: &mut Summary, text: String) -> (String, Option<String>) {
+fn with_report(
+    folder: &Path,
+    summary: &mut Summary,
+    text: String,
+    history: HistoryColumns,
+) -> (String, Option<String>) {
     let write = || -> Result<(), Box<dyn std::error::Error>> {
-        let page = report_page(&StoredResult::of(folder, &text)?)?;
+        let page = report_page(&StoredResult::of(folder, &text, history.into())?)?;
         Ok(write_whole(&folder.join(REPORT_FILE), folder, page.as_bytes())?)
     };
     match write() {
@@ -154,12 +161,10 @@ fn reserve_space(folder: &Path, summary: &Summary) -> Result<(), String> {
 fn write_tables(
     folder: &Path,
     simulation: &Simulation,
-    collision: &Collision,
+    (collision, history): (&Collision, &HistoryColumns),
     summary: &mut Summary,
 ) -> Result<(), String> {
-    write_table(folder, HISTORY_FILE, summary, |file| {
-        history_csv(file, simulation.case().scene(), &collision.history)
-    })?;
+    write_table(folder, HISTORY_FILE, summary, |file| history_csv(file, history))?;
     let probes = &simulation.request().probes;
     if !probes.is_empty() {
         write_table(folder, PROBES_FILE, summary, |file| {

@@ -15,67 +15,56 @@ use crate::simulation::Simulation;
 /// The file name of the history.
 pub const HISTORY_FILE: &str = "history.csv";
 
-/// Writes the history, one row per instant. Accounts of effects come last. Numbers are the shortest that read back to the
-/// same bits; unknown values are blank.
+/// The columns of a history, each with its name and one number for each instant; a value that is not known is NaN.
+pub type HistoryColumns = Vec<(String, Vec<f64>)>;
+
+/// Returns the history by columns. Accounts of effects come last.
+pub fn history_columns(scene: &Scene, rows: &[HistoryRow]) -> HistoryColumns {
+    let [energies, of_effects] = in_history(rows.iter().map(|row| &row.energies), Account::shown);
+    let column = |name: &str, value: &dyn Fn(&HistoryRow) -> Option<f64>| {
+        (name.to_string(), rows.iter().map(|row| value(row).unwrap_or(f64::NAN)).collect())
+    };
+    let of_account = |account: &Account| column(&energy_key(*account), &|row| row.energy(*account));
+    let of_body = |side: usize| {
+        let name = format!("velocity_{}_m_s", scene.bodies()[side].name());
+        column(&name, &|row| Some(row.velocity[side]))
+    };
+    let mut columns = vec![
+        column("time_s", &|row| Some(row.time)),
+        column("contact_force_n", &|row| Some(row.contact_force)),
+        column("contact_radius_m", &|row| row.contact_radius),
+        column("approach_m", &|row| Some(row.approach)),
+        column("centre_pressure_pa", &|row| row.centre_pressure),
+    ];
+    columns.extend([0, 1].map(of_body));
+    columns.extend(energies.iter().map(of_account));
+    columns.push(column("residual_j", &|row| row.residual));
+    columns.extend(of_effects.iter().map(of_account));
+    columns
+}
+
+/// Writes a history, one row per instant. Numbers are the shortest that read back to the same bits; unknown values are blank. A
+/// general CSV writer would take twice as long.
 ///
 /// # Errors
 /// `to` cannot be written to.
-pub fn history_csv(mut to: impl Write, scene: &Scene, rows: &[HistoryRow]) -> io::Result<()> {
-    let velocities = scene.bodies().each_ref().map(|body| format!("velocity_{}_m_s", body.name()));
-    let ledgers = rows.iter().map(|row| &row.energies);
-    let [energies, of_effects] = in_history(ledgers, Account::shown);
-    let [keys, of_effects_keys] = [&energies, &of_effects]
-        .map(|those| those.iter().map(|account| energy_key(*account)).collect::<Vec<_>>());
-    let first =
-        ["time_s", "contact_force_n", "contact_radius_m", "approach_m", "centre_pressure_pa"];
-    let names = velocities.iter().chain(&keys).map(String::as_str);
-    let last = of_effects_keys.iter().map(String::as_str);
-    let header: Vec<&str> =
-        first.into_iter().chain(names).chain(["residual_j"]).chain(last).collect();
-    writeln!(to, "{}", header.join(","))?;
-    let mut line = Line::default();
-    for row in rows {
-        line.number(row.time);
-        line.number(row.contact_force);
-        line.known(row.contact_radius);
-        line.number(row.approach);
-        line.known(row.centre_pressure);
-        row.velocity.iter().for_each(|velocity| line.number(*velocity));
-        energies.iter().for_each(|account| line.known(row.energy(*account)));
-        line.known(row.residual);
-        of_effects.iter().for_each(|account| line.known(row.energy(*account)));
-        to.write_all(line.ended())?;
-        line.text.clear();
+pub fn history_csv(mut to: impl Write, columns: &HistoryColumns) -> io::Result<()> {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    writeln!(to, "{}", names.join(","))?;
+    let mut line = Vec::new();
+    for row in 0..columns.first().map_or(0, |(_, first)| first.len()) {
+        line.clear();
+        for number in columns.iter().map(|(_, numbers)| numbers[row]) {
+            if !number.is_nan() {
+                line.extend_from_slice(ryu::Buffer::new().format(number).as_bytes());
+            }
+            line.push(b',');
+        }
+        line.pop();
+        line.push(b'\n');
+        to.write_all(&line)?;
     }
     to.flush()
-}
-
-/// A line of numbers, which need no quotes. A general CSV writer would take twice as long.
-#[derive(Default)]
-struct Line {
-    /// The numbers, each with a comma after it.
-    text: Vec<u8>,
-}
-
-impl Line {
-    fn number(&mut self, number: f64) {
-        self.text.extend_from_slice(ryu::Buffer::new().format(number).as_bytes());
-        self.text.push(b',');
-    }
-
-    fn known(&mut self, number: Option<f64>) {
-        match number {
-            Some(number) => self.number(number),
-            None => self.text.push(b','),
-        }
-    }
-
-    fn ended(&mut self) -> &[u8] {
-        if let Some(last) = self.text.last_mut() {
-            *last = b'\n';
-        }
-        &self.text
-    }
 }
 
 /// The file name of the contact at each snapshot.

@@ -20,8 +20,8 @@ mod summary;
 pub use crate::error::ElasticNull;
 #[cfg(feature = "files")]
 pub use csv_files::{
-    CONTACT_FILE, DENT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, dent_csv, has_contact,
-    history_csv, probes_csv,
+    CONTACT_FILE, DENT_FILE, HISTORY_FILE, HistoryColumns, PROBES_FILE, contact_csv, dent_csv,
+    has_contact, history_columns, history_csv, probes_csv,
 };
 pub use dent::{DentProfile, DentSummary, dents};
 pub use energy::{Accounts, Energy};

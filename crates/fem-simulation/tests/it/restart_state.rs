@@ -2,7 +2,7 @@
 
 use fem_collision::{Collision, Expectation, OutputRequest};
 use fem_explicit::Run;
-use fem_simulation::results::{contact_csv, history_csv, write_snapshots};
+use fem_simulation::results::{contact_csv, history_columns, history_csv, write_snapshots};
 use fem_simulation::{Explicit, Identity, RestartState, Simulation, checkpoint, restart_state_of};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -164,7 +164,8 @@ fn a_resumed_pair_with_one_body_at_finite_strain_writes_the_same_files() {
         let mut files: Vec<Vec<u8>> =
             names.iter().map(|name| std::fs::read(folder.path().join(name)).unwrap()).collect();
         let (mut history, mut contact) = (Vec::new(), Vec::new());
-        history_csv(&mut history, simulation.case().scene(), &collision.history).unwrap();
+        history_csv(&mut history, &history_columns(simulation.case().scene(), &collision.history))
+            .unwrap();
         contact_csv(&mut contact, &simulation, collision).unwrap();
         files.extend([history, contact]);
         files
