@@ -1,12 +1,13 @@
 //! Errors of a mesh or its description.
 
+use fem_material::engineering::{number, show};
 use thiserror::Error;
 
 /// The reason why a body cannot be meshed or a mesh is rejected.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
     /// A length that must be positive and finite is not.
-    #[error("{name} is {value:?} m; it must be positive and finite", value = short(*value))]
+    #[error("{name} is {value}; it must be positive and finite", value = length(*value))]
     Length {
         /// Name of the length.
         name: &'static str,
@@ -15,9 +16,9 @@ pub enum MeshError {
     },
     /// The elements at the contact are too large to describe the sphere.
     #[error(
-        "contact element size {size:?} m is too large for a sphere of radius {radius:?} m; \
-         at most a quarter of the radius, {:?} m, is allowed",
-        short(radius / 4.0), radius = short(*radius), size = short(*size)
+        "contact element size {size} is too large for a sphere of radius {radius}; \
+         at most a quarter of the radius, {}, is allowed",
+        length(radius / 4.0), radius = length(*radius), size = length(*size)
     )]
     ElementSize {
         /// Element size asked for, m.
@@ -27,9 +28,9 @@ pub enum MeshError {
     },
     /// The uniformly fine block does not fit into the sphere.
     #[error(
-        "refined radius {refined_radius:?} m is too large for a sphere of radius {radius:?} m; \
+        "refined radius {refined_radius} is too large for a sphere of radius {radius}; \
          at most that radius is allowed",
-        refined_radius = short(*refined_radius), radius = short(*radius)
+        refined_radius = length(*refined_radius), radius = length(*radius)
     )]
     RefinedRadius {
         /// Half-width of the fine block, m.
@@ -39,9 +40,9 @@ pub enum MeshError {
     },
     /// The far boundary of a half-space is too near.
     #[error(
-        "far radius {far_radius:?} m is too small for a refined radius of {refined_radius:?} m; at least \
-         twice that, {:?} m, is needed",
-        short(2.0 * refined_radius), refined_radius = short(*refined_radius), far_radius = short(*far_radius)
+        "far radius {far_radius} is too small for a refined radius of {refined_radius}; at least \
+         twice that, {}, is needed",
+        length(2.0 * refined_radius), refined_radius = length(*refined_radius), far_radius = length(*far_radius)
     )]
     FarRadius {
         /// Distance of the far boundary, m.
@@ -51,8 +52,8 @@ pub enum MeshError {
     },
     /// The uniformly fine block does not fit into the plate.
     #[error(
-        "a plate of thickness {thickness:?} m is too thin for its contact; at least {least:?} m is needed",
-        thickness = short(*thickness), least = short(*least)
+        "a plate of thickness {thickness} is too thin for its contact; at least {least} is needed",
+        thickness = length(*thickness), least = length(*least)
     )]
     ThinPlate {
         /// Thickness of the plate, m.
@@ -62,8 +63,8 @@ pub enum MeshError {
     },
     /// The rim of the plate is too near.
     #[error(
-        "a plate of radius {radius:?} m is too narrow for its thickness; at least {least:?} m is needed",
-        radius = short(*radius), least = short(*least)
+        "a plate of radius {radius} is too narrow for its thickness; at least {least} is needed",
+        radius = length(*radius), least = length(*least)
     )]
     NarrowPlate {
         /// Radius of the plate, m.
@@ -72,7 +73,7 @@ pub enum MeshError {
         least: f64,
     },
     /// Successive rings cannot grow by this factor.
-    #[error("growth {} is not allowed; it must lie above 1 and not above 2", short(*.0))]
+    #[error("growth {} is not allowed; it must lie above 1 and not above 2", number(*.0, 5))]
     Growth(f64),
     /// The mesh would have more nodes than indices.
     #[error("the mesh would have {0:.1e} elements; at most {max} can be numbered", max = u32::MAX / 2)]
@@ -82,7 +83,7 @@ pub enum MeshError {
     Import(String),
 }
 
-/// Rounds a number of a message to five digits.
-fn short(number: f64) -> f64 {
-    format!("{number:.4e}").parse().unwrap_or(number)
+/// Returns a length with a prefix.
+fn length(metres: f64) -> String {
+    show(metres, "m")
 }

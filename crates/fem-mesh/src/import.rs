@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use fem_material::engineering::show;
+
 use crate::error::MeshError;
 use crate::quality::Quality;
 use crate::sphere_mesh::SphereMesh;
@@ -160,9 +162,9 @@ fn centre_of(
     let (low, high) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
     if (high - low - 2.0 * radius).abs() > 2.0 * tolerance {
         return Err(MeshError::Import(format!(
-            "the mesh is {} m long along the axis; the sphere's diameter is {} m",
-            high - low,
-            2.0 * radius
+            "the mesh is {} long along the axis; the sphere's diameter is {}",
+            show(high - low, "m"),
+            show(2.0 * radius, "m")
         )));
     }
     if low.abs() <= tolerance {
@@ -171,7 +173,9 @@ fn centre_of(
         Ok(-radius)
     } else {
         Err(MeshError::Import(format!(
-            "the mesh lies between y = {low} m and y = {high} m; its contact pole must be at y = 0"
+            "the mesh lies between y = {} and y = {}; its contact pole must be at y = 0",
+            show(low, "m"),
+            show(high, "m")
         )))
     }
 }
@@ -209,8 +213,9 @@ fn split_boundary(
         let distance = p[0].hypot(p[1] - centre);
         if (distance - radius).abs() > tolerance || p[0] < -tolerance {
             return Err(MeshError::Import(format!(
-                "surface node {node} lies {distance} m from the sphere's centre (0, {centre}); \
-                 its radius is {radius} m"
+                "surface node {node} lies {} from the sphere's centre (0, {centre}); its radius is {}",
+                show(distance, "m"),
+                show(radius, "m")
             )));
         }
         let scale = radius / distance;
@@ -230,8 +235,8 @@ fn split_boundary(
     }
     if let Some(node) = nodes.iter().position(|p| p[0] < 0.0) {
         return Err(MeshError::Import(format!(
-            "node {node} has a negative r, {} m",
-            nodes[node][0]
+            "node {node} has a negative r, {}",
+            show(nodes[node][0], "m")
         )));
     }
     let n_axis = nodes.iter().filter(|p| p[0] == 0.0).count();

@@ -1,6 +1,6 @@
 //! Initial velocities and distance of two bodies.
 
-use fem_material::engineering::number;
+use fem_material::engineering::{number, show};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -31,7 +31,7 @@ pub enum ApproachError {
     )]
     NotApproaching(f64),
     /// The gap is negative or not finite.
-    #[error("gap is {} m; it must be finite and at least 0", number(*.0, 5))]
+    #[error("gap is {}; it must be finite and at least 0", show(*.0, "m"))]
     Gap(f64),
 }
 

@@ -75,7 +75,8 @@ pub struct FittedSeries {
     pub equilibrium_uncertainty: f64,
     /// Terms by rising relaxation time.
     pub terms: Vec<FittedTerm>,
-    /// Standard uncertainty of the sum of all moduli, Pa.
+    /// Standard uncertainty of the sum of all moduli, Pa. It allows for terms up to ten times faster than the data, and not for those
+    /// that are faster still, of which the data show nothing.
     pub instantaneous_uncertainty: f64,
     /// Standard uncertainty of the loss modulus at each point over its value, without that of shifts.
     pub loss_uncertainties: Vec<f64>,

@@ -61,7 +61,7 @@ pub struct NumberColumn {
 enum Rows {
     /// As long as the header.
     Even,
-    /// Of any length: what an instrument sets beside its samples is left out, and cells that are not there have no value.
+    /// They have any length: what an instrument sets beside its samples is left out, and cells that are not there have no value.
     Ragged,
 }
 

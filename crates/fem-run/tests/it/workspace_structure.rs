@@ -243,6 +243,24 @@ fn comments_name_types_in_backticks() {
     assert!(faults.is_empty(), "{} names without backticks:\n{}", faults.len(), faults.join("\n"));
 }
 
+/// Messages show lengths with a prefix, 300 µm. Input for other programs, in `fem-data/src/dem`, is in SI.
+#[test]
+fn messages_show_no_bare_metres() {
+    let bare = ["} m\"", "} m;", "} m,", "} m)"];
+    let mut faults = Vec::new();
+    for (path, source) in sources() {
+        let path = path.to_string_lossy().into_owned();
+        let is_message = |line: &&str| !line.trim_start().starts_with("//");
+        let found = source.lines().filter(is_message);
+        let found = found.filter(|line| bare.iter().any(|it| line.contains(it)));
+        if path.contains("/src/") && !path.contains("/tests") && !path.contains("fem-data/src/dem")
+        {
+            faults.extend(found.map(|line| format!("{path}: {}", line.trim())));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// Returns all source files of the repository with their paths.
 fn sources() -> Vec<(PathBuf, String)> {
     let (mut sources, mut open) = (Vec::new(), vec![root()]);

@@ -11,7 +11,7 @@ pub(crate) mod viscous_flow;
 use fem_case::{Body, ModelChoice, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
-use fem_material::engineering::number;
+use fem_material::engineering::{number, show};
 use fem_material::{ElasticModuli, Material};
 
 use crate::estimate::effective_modulus::{EffectiveModuli, sizes_of};
@@ -83,7 +83,7 @@ impl Estimate {
                 }
                 false => (
                     "sphere.diameter",
-                    format!("diameter is {} m", number(diameter.unwrap_or(0.0), 4)),
+                    format!("diameter is {}", show(diameter.unwrap_or(0.0), "m")),
                 ),
             };
             let mut rejection = rejected(format!(

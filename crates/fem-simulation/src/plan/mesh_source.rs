@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 #[cfg(feature = "files")]
-use fem_case::engineering::number;
 use fem_case::engineering::show;
 use fem_case::{Plate, PlateSupport};
 use fem_material::Material;
@@ -183,8 +182,8 @@ fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
     let mesh = file.and_then(|file| file.quad_mesh()).map_err(|error| error.to_string())?;
     if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
         return Err(fault(format!(
-            "a point lies at z = {} m, off the plane z = 0",
-            number(point[2], 5)
+            "a point lies at z = {}, off the plane z = 0",
+            show(point[2], "m")
         )));
     }
     let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
