@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use kuva::plot::scatter::MarkerShape;
-
 use crate::style::COLOURS;
 
 /// How a curve is drawn.
@@ -91,13 +89,21 @@ impl Curve {
     }
 }
 
+/// The shape of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Marker {
+    Circle,
+    Square,
+    Triangle,
+    Diamond,
+}
+
 /// Dashes of solid lines in pixels, by turns of the colours; the first is solid.
 const OF_LINES: [Option<&str>; 4] = [None, Some("2 3"), Some("12 3 2 3"), Some("16 5")];
 /// Dashes of dashed lines.
 const OF_DASHED: [&str; 4] = ["8 4", "2 4", "9 3 2 3", "18 6"];
 /// Markers by turns of the colours.
-const MARKERS: [MarkerShape; 4] =
-    [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond];
+const MARKERS: [Marker; 4] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
 
 /// How many times all colours have been used before a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -121,7 +127,7 @@ impl LineStyle {
     }
 
     /// Returns the marker of points.
-    pub fn marker(self) -> MarkerShape {
+    pub fn marker(self) -> Marker {
         MARKERS[self.turn % MARKERS.len()]
     }
 }

@@ -1,8 +1,8 @@
 //! Charts and filled contours as self-contained SVG.
 //!
-//! A [`Chart`] is drawn by [`kuva`] in the house style: colours that colour-blind readers can distinguish, short
-//! tick labels, room around the data of logarithmic axes. [`contour`] draws fields on a section. [`panel`] draws one
-//! small chart without [`kuva`], for pages that restyle it.
+//! A [`Chart`] has curves, points with error bars, and bands in colours that colour-blind readers can distinguish, short tick
+//! labels, and room around the data of logarithmic axes. [`svg`] draws panels side by side, [`panel`] one chart for a page that
+//! restyles it. [`contour`] draws fields on a section.
 //!
 //! ```
 //! use fem_figure::{Axis, Chart, Curve};
@@ -17,7 +17,6 @@ mod chart;
 mod clip;
 pub mod contour;
 mod curve;
-mod grid;
 mod panel;
 mod scale;
 mod simplify;
@@ -25,6 +24,5 @@ mod style;
 
 pub use chart::{Axis, Chart};
 pub use curve::{Curve, Mark};
-pub use grid::{legend_room, svg};
-pub use panel::{panel, stacked};
+pub use panel::{legend_room, panel, stacked, svg};
 pub use style::{COLOURS, GREY, colour_along, escaped, tick};

@@ -3,11 +3,19 @@
 use crate::chart::Axis;
 use crate::contour::Levels;
 
-/// Free space above the data of an axis that begins at zero.
-const HEADROOM: f64 = 0.05;
-/// Below this number of decades there are ticks within decades.
-const FEW_DECADES: f64 = 2.5;
+/// Free space beside the data of a linear axis, over their range.
+const ROOM: f64 = 0.05;
 
+/// Free space on a linear axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Room {
+    /// The axis ends with the data.
+    None,
+    /// The axis extends to zero, with room on the other side.
+    FromZero,
+    /// There is room on both sides, but not beyond zero.
+    Around,
+}
 /// Fewer ticks do not show a scale.
 const FEWEST: usize = 3;
 
@@ -19,9 +27,8 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// Returns the given range of the axis, or that of the data, extended to zero if the axis `stands` (a
-    /// vertical one); `None` if there is no value to show.
-    pub fn of(axis: &Axis, values: impl Iterator<Item = f64>, stands: bool) -> Option<Self> {
+    /// Returns the given range of the axis, or that of the data with some room; `None` if there is no value to show.
+    pub fn of(axis: &Axis, values: impl Iterator<Item = f64>, room: Room) -> Option<Self> {
         let is_logarithmic = axis.is_logarithmic;
         let (mut from, mut to) = axis.range.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
         if axis.range.is_none() {
@@ -33,11 +40,16 @@ impl Scale {
             }
             if is_logarithmic {
                 (from, to) = (from / 1.2, to * 1.2);
-            } else if stands {
-                (from, to) = (from.min(0.0), to.max(0.0));
-                let room = HEADROOM * (to - from);
-                from -= if from < 0.0 { room } else { 0.0 };
-                to += if to > 0.0 { room } else { 0.0 };
+            } else if room != Room::None {
+                if room == Room::FromZero {
+                    (from, to) = (from.min(0.0), to.max(0.0));
+                }
+                let beside = ROOM * (to - from);
+                let end = |at: f64, by: f64| {
+                    let moved = at + by;
+                    if at * moved < 0.0 || at == 0.0 { 0.0 } else { moved }
+                };
+                (from, to) = (end(from, -beside), end(to, beside));
             }
         }
         if from == to {
@@ -76,16 +88,19 @@ impl Scale {
 /// Returns powers of ten within a positive range, and 2 and 5 times these if there are few.
 fn round_values((from, to): (f64, f64), n: usize) -> Vec<f64> {
     let decades = (to / from).log10();
-    let digits: &[f64] = if decades < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let (first, last) = (from.log10().floor() as i32, to.log10().ceil() as i32);
     let stride = ((decades / n as f64).ceil() as usize).max(1);
-    let powers = (first..=last).step_by(stride);
-    let all = powers.flat_map(|power| digits.iter().map(move |d| d * 10f64.powi(power)));
-    all.filter(|value| (from..=to).contains(value)).collect()
+    let with = |digits: &[f64]| -> Vec<f64> {
+        let powers = (first..=last).step_by(stride);
+        let all = powers.flat_map(|power| digits.iter().map(move |d| d * 10f64.powi(power)));
+        all.filter(|value| (from..=to).contains(value)).collect()
+    };
+    let powers = with(&[1.0]);
+    if powers.len() <= FEWEST { with(&[1.0, 2.0, 5.0]) } else { powers }
 }
 
 /// Returns the step of at most about `n` equidistant ticks for a logarithmic axis whose range has hardly any round value.
-pub(crate) fn narrow_step((from, to): (f64, f64), n: usize) -> Option<f64> {
+fn narrow_step((from, to): (f64, f64), n: usize) -> Option<f64> {
     let is_narrow = from > 0.0 && from < to && round_values((from, to), n).len() < FEWEST;
     is_narrow.then(|| Levels::about_zero(0.0, to - from, n).step())
 }
@@ -118,17 +133,17 @@ mod tests {
 
     #[test]
     fn axis_from_zero_contains_zero_and_has_headroom() {
-        let scale = Scale::of(&Axis::new("F"), [2.0, 100.0].into_iter(), true).unwrap();
+        let scale = Scale::of(&Axis::new("F"), [2.0, 100.0].into_iter(), Room::FromZero).unwrap();
         assert_eq!((scale.share(0.0), scale.share(105.0)), (0.0, 1.0));
-        let free = Scale::of(&Axis::new("t"), [2.0, 100.0].into_iter(), false).unwrap();
+        let free = Scale::of(&Axis::new("t"), [2.0, 100.0].into_iter(), Room::None).unwrap();
         assert_eq!((free.share(2.0), free.share(100.0)), (0.0, 1.0));
-        assert!(Scale::of(&Axis::new("t"), [f64::NAN].into_iter(), true).is_none());
+        assert!(Scale::of(&Axis::new("t"), [f64::NAN].into_iter(), Room::Around).is_none());
     }
 
     #[test]
     fn decades_are_equally_long() {
         let axis = Axis::new("h").logarithmic().from_to(0.01, 1.0);
-        let scale = Scale::of(&axis, std::iter::empty(), false).unwrap();
+        let scale = Scale::of(&axis, std::iter::empty(), Room::None).unwrap();
         assert!((scale.share(0.1) - 0.5).abs() < 1e-15);
         assert_eq!(scale.ticks(5).len(), 7);
     }
@@ -141,7 +156,7 @@ mod tests {
             ((2.5, 12.0), vec![4.0, 6.0, 8.0, 10.0, 12.0]),
         ] {
             let axis = Axis::new("E").logarithmic().from_to(range.0, range.1);
-            let found = Scale::of(&axis, std::iter::empty(), false).unwrap().ticks(5);
+            let found = Scale::of(&axis, std::iter::empty(), Room::None).unwrap().ticks(5);
             assert_eq!(found.len(), expected.len(), "{found:?}");
             assert!(found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-12));
         }

@@ -43,12 +43,6 @@ pub fn tick(value: f64) -> String {
     }
 }
 
-/// Returns the number of a tick on a logarithmic axis; small ones as powers, which fit the room that kuva
-/// reserves.
-pub(crate) fn decade(value: f64) -> String {
-    if value < 0.1 { format!("{:e}", rounded(value)) } else { tick(value) }
-}
-
 /// Removes rounding errors.
 fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
@@ -156,9 +150,6 @@ mod tests {
             [(0.1 + 0.2, "0.3"), (0.0, "0"), (1e-7, "1e-7"), (-2.5e8, "-2.5e8"), (1000.0, "1000")]
         {
             assert_eq!(tick(value), expected);
-        }
-        for (value, expected) in [(0.1, "0.1"), (0.01, "1e-2"), (5e-5, "5e-5"), (200.0, "200")] {
-            assert_eq!(decade(value), expected);
         }
     }
 }
