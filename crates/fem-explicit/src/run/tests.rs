@@ -6,15 +6,25 @@ use fem_mesh::Side;
 use super::phases::is_closed_next;
 use super::*;
 use crate::state::{Scratch, State};
-use crate::test_support::{settings, sphere, unit_glass};
+use crate::test_support::{settings, sphere, started, unit_glass};
 use crate::{ModelParts, Settings, SmallStrainContact};
 
-/// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
+/// Unit spheres at a hundredth of the wave's speed, two elements a block's side; or the upper one on a wall.
+fn on_springs(
+    contact_stiffness: f64,
+    method: SmallStrainContact,
+    has_wall: bool,
+) -> ExplicitBodies {
+    let sphere = |side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() };
+    let lower = if has_wall { BodyInput::Wall } else { sphere(Side::Below) };
+    let settings = Settings { contact_stiffness, ..settings() };
+    let parts = ModelParts { method, ..ModelParts::default() };
+    let approach = Approach::at(0.01).unwrap();
+    started([lower, sphere(Side::Above)], approach, &settings, parts).0
+}
+
 fn model() -> ExplicitBodies {
-    let bodies = [Side::Below, Side::Above]
-        .map(|side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() });
-    let settings = Settings { contact_stiffness: 5.0, ..settings() };
-    ExplicitBodies::new(bodies, Approach::at(0.01).unwrap(), &settings).unwrap()
+    on_springs(5.0, SmallStrainContact::Penalty, false)
 }
 
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
@@ -57,6 +67,10 @@ fn added_energy_stops_the_run() {
     assert!(run.history.iter().all(|row| row.time < time));
     assert!(run.residual_relative.unwrap() > 0.05, "the residual must fail");
     assert_eq!(run.restitution, None);
+    // Without a modification the run ends normally.
+    let run = disturbed(1.0);
+    assert_eq!(run.ending, Ending::Parted);
+    assert!(run.restitution.unwrap() > 0.98, "{:?}", run.restitution);
 }
 
 /// A run that fails keeps the last state with a valid energy balance. A run that is interrupted, or without requested
@@ -123,14 +137,6 @@ fn numbers_that_are_not_finite_stop_the_run() {
         assert!(run.history.iter().all(is_sound), "a bad row is kept");
         assert!(!run.residual_relative.unwrap().is_finite());
     }
-}
-
-/// Without a modification the run ends normally.
-#[test]
-fn an_undisturbed_run_ends() {
-    let run = disturbed(1.0);
-    assert_eq!(run.ending, Ending::Parted);
-    assert!(run.restitution.unwrap() > 0.98, "{:?}", run.restitution);
 }
 
 /// Velocities of a snapshot belong to its time, not half a step before, as the history's do.
@@ -212,19 +218,7 @@ fn every_step_has_the_energy_of_a_balance() {
         (SmallStrainContact::NodeToSurface, 50.0),
     ] {
         for wall in [false, true] {
-            let sphere =
-                |side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() };
-            let lower = if wall { BodyInput::Wall } else { sphere(Side::Below) };
-            let settings = Settings { contact_stiffness: stiffness, ..settings() };
-            let parts = ModelParts { method, ..ModelParts::default() };
-            let approach = Approach::at(0.01).unwrap();
-            let model = ExplicitBodies::with_parts(
-                [lower, sphere(Side::Above)],
-                approach,
-                &settings,
-                parts,
-            )
-            .unwrap();
+            let model = on_springs(stiffness, method, wall);
             let mut run = Run::new(&model, LONG, &request(SnapshotRequest::none()));
             let mut scratch = Scratch::new(&model);
             let (mut worst, mut largest, mut n_closed): (f64, f64, u32) = (0.0, 0.0, 0);

@@ -5,7 +5,7 @@ use fem_mesh::Side;
 use super::*;
 use crate::model::{ExplicitBodies, ModelParts};
 use crate::state::State;
-use crate::test_support::{settings, unit_glass, unit_sphere};
+use crate::test_support::{glass_sphere, settings, started};
 
 fn model(law: Option<HyperelasticLaw>) -> ExplicitBodies {
     at_speed(law, 0.01)
@@ -13,10 +13,10 @@ fn model(law: Option<HyperelasticLaw>) -> ExplicitBodies {
 
 /// The sphere at a speed of approach; pressure waves have the speed 1.1.
 fn at_speed(law: Option<HyperelasticLaw>, speed: f64) -> ExplicitBodies {
-    let sphere = BodyInput::Sphere { mesh: unit_sphere(4.0, Side::Above), material: unit_glass() };
+    let bodies = [BodyInput::Wall, glass_sphere(4.0, Side::Above)];
     let parts = ModelParts { finite_strain: [None, law], ..ModelParts::default() };
     let approach = Approach::new([speed, 0.0], 1e3 * speed).unwrap();
-    ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings(), parts).unwrap()
+    started(bodies, approach, &settings(), parts).0
 }
 
 /// The control of a model at first touch.
@@ -56,11 +56,7 @@ fn strained(
     control.after_bound(demand, (step, time), [model.time_step(), model.step_factor()])
 }
 
-#[test]
-fn small_strain_has_no_step_control() {
-    assert_eq!(State::at_first_touch(&model(None)).step_control, None);
-}
-
+/// Levels are powers of the sixteenth root of two; bodies at small strain have none.
 #[test]
 fn levels_are_powers_of_the_sixteenth_root_of_two() {
     for level in 0..=MAX_LEVELS {
@@ -68,6 +64,7 @@ fn levels_are_powers_of_the_sixteenth_root_of_two() {
         // Rounding of the power, which grows with it.
         assert!((level_factor(level) / exact - 1.0).abs() < 1e-13, "{level}");
     }
+    assert_eq!(State::at_first_touch(&model(None)).step_control, None);
 }
 
 /// The step is never above the allowed one, and below it by at most a level and its margin.

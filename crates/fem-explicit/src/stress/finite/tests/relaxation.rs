@@ -8,56 +8,11 @@ use super::super::hourglass::Deformed;
 use super::super::internal_variables::FIELDS_PER_TERM;
 use super::super::law::RelaxingLaw;
 use super::*;
-use crate::test_support::relaxing_glass;
+use crate::test_support::{March, relaxing_glass, scaled};
 
 const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
 /// Terms that are fast and slow compared with the paths of the tests, and an equilibrium modulus.
 const TERMS: [(f64, f64); 2] = [(0.3, 0.2), (0.5, 2.0)];
-
-/// The elements of a body on a path that the test chooses.
-pub(super) struct March {
-    pub stress: Box<dyn Stress>,
-    pub history: Vec<NodalField>,
-    pub u: Vec<[f64; 2]>,
-}
-
-impl March {
-    pub fn new(mut stress: Box<dyn Stress>, mesh: &SphereMesh, time_step: f64) -> Self {
-        stress.set_time_step(time_step);
-        let of_elements = vec![vec![[0.0; 2]; mesh.quads().len()]; stress.n_element_history()];
-        let of_nodes = vec![vec![[0.0; 2]; mesh.nodes().len()]; stress.n_history()];
-        let history = [of_elements, of_nodes].concat();
-        Self { stress, history, u: vec![[0.0; 2]; mesh.nodes().len()] }
-    }
-
-    pub fn step(&mut self, time_step: f64, u: &Field) {
-        let rate = |(after, before): (&[f64; 2], &[f64; 2])| {
-            [0, 1].map(|axis: usize| (after[axis] - before[axis]) / time_step)
-        };
-        let velocity: Vec<_> = u.iter().zip(&self.u).map(rate).collect();
-        self.u = u.to_vec();
-        let motion = Motion { time_step, velocity: &velocity, ..motion(&self.u) };
-        self.stress.advance(&motion, &mut self.history);
-    }
-
-    pub fn forces(&self) -> Vec<[f64; 2]> {
-        let mut f = vec![[0.0; 2]; self.u.len()];
-        self.stress.subtract_forces(&motion(&self.u), &self.history, &mut f).unwrap();
-        f
-    }
-
-    /// Returns the stored energy and the dissipated power.
-    fn energies(&self, u: &Field) -> (f64, f64) {
-        let mut accounts = Accounts::default();
-        self.stress.add_energies(&motion(u), &self.history, &mut accounts);
-        let power = accounts.powers.get(Account::ViscousDissipation).unwrap();
-        (accounts.energies.get(Account::Strain).unwrap(), power)
-    }
-}
-
-pub(super) fn scaled(shape: &Field, factor: f64) -> Vec<[f64; 2]> {
-    shape.iter().map(|u| u.map(|u| factor * u)).collect()
-}
 
 /// Shares of a deformation over time, up and back.
 const PATH: [(f64, f64); 4] = [(0.05, 0.6), (0.2, 1.0), (1.0, 0.7), (0.1, -0.2)];
@@ -108,7 +63,7 @@ fn forces_are_the_derivative_of_the_stored_energy() {
     for acts_on in MODES {
         for law in HyperelasticLaw::ALL {
             let (_, march) = held(law, acts_on);
-            assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, law);
+            assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, &law);
         }
     }
 }
