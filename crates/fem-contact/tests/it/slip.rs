@@ -1,7 +1,8 @@
 //! Surfaces that slip on each other: energy, balance, and where it is nothing.
 
 use crate::common::{
-    Field, STIFFNESS, assert_balance, forces, glass_pair, interface, noise, ragged, sphere,
+    Field, STIFFNESS, assert_balance, assert_gradient, forces, glass_pair, interface, noise,
+    ragged, sphere,
 };
 use fem_contact::{ContactForces, ContactInterface, SlippingInterface, Surface};
 use fem_mesh::Side;
@@ -41,28 +42,17 @@ fn slipping_forces_balance_and_derive_from_the_energy() {
         let (total, f) = slipping_forces(&interface, &u);
         assert!(total.n_closed > 10 && total.n_closed < interface.interface().n_points());
         assert_balance(&total, &f);
-        let step = 1e-10;
-        let mut largest = [0.0; 2];
-        for side in 0..2 {
-            for node in interface.interface().candidate_nodes(side) {
-                // A rigid body does not move along r.
-                let first = usize::from(u[side].len() == 1);
-                for axis in first..2 {
-                    let energy = |change: f64| {
-                        let mut moved = u.clone();
-                        moved[side][node as usize][axis] += change;
-                        slipping_forces(&interface, &moved).0.energy
-                    };
-                    let slope = (energy(step) - energy(-step)) / (2.0 * step);
-                    let force = f[side][node as usize][axis];
-                    // Rounding of the energy over the step; it is of fourth order in u, whose third
-                    // derivative is worth (step/20 µm)² of it.
-                    let error = (force + slope).abs();
-                    assert!(error < 1e-13 * total.energy / step, "{error:e} {total:?}");
-                    largest[axis] = force.abs().max(largest[axis]);
-                }
-            }
-        }
+        // A rigid body does not move along r.
+        let of_side = |side: usize| {
+            let axes = usize::from(u[side].len() == 1)..2;
+            let nodes = interface.interface().candidate_nodes(side);
+            nodes.flat_map(move |node| axes.clone().map(move |axis| (side, node as usize, axis)))
+        };
+        // Rounding of the energy over the step; it is of fourth order in u, whose third derivative is worth
+        // (step/20 µm)² of it.
+        let freedoms = (0..2).flat_map(of_side);
+        let forces = |u: &[Field; 2]| slipping_forces(&interface, u);
+        let largest = assert_gradient(&forces, &u, freedoms, [1e-10, 1e-13]);
         // Radial forces are not negligible: slopes are up to 0.04, and ragged ones more.
         assert!(largest[0] > 0.01 * largest[1], "{largest:?}");
     }
