@@ -83,7 +83,7 @@ fn straight_contact_forces_balance_and_derive_from_the_energy() {
         assert_balance(&total, &f);
         assert!(f.iter().flatten().all(|f| f[0] == 0.0), "the contact is frictionless");
         // The energy is quadratic, so the difference is exact but for rounding.
-        assert_gradient(&|u| forces(&interface, u), &u, axial(&interface), [1e-10, 1e-14]);
+        assert_gradient(|u| forces(&interface, u), &u, axial(&interface), [1e-10, 1e-14]);
     }
 }
 

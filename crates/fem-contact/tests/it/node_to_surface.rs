@@ -71,5 +71,5 @@ fn node_to_surface_forces_balance_and_derive_from_the_energy() {
     assert!(total.n_closed > 5 && total.n_closed < interface.n_points());
     assert_balance(&total, &f);
     // The energy is quadratic, so the difference is exact but for rounding.
-    assert_gradient(&|u| forces(&interface, u), &u, axial(&interface), [1e-10, 1e-14]);
+    assert_gradient(|u| forces(&interface, u), &u, axial(&interface), [1e-10, 1e-14]);
 }

@@ -52,7 +52,7 @@ fn slipping_forces_balance_and_derive_from_the_energy() {
         // (step/20 µm)² of it.
         let freedoms = (0..2).flat_map(of_side);
         let forces = |u: &[Field; 2]| slipping_forces(&interface, u);
-        let largest = assert_gradient(&forces, &u, freedoms, [1e-10, 1e-13]);
+        let largest = assert_gradient(forces, &u, freedoms, [1e-10, 1e-13]);
         // Radial forces are not negligible: slopes are up to 0.04, and ragged ones more.
         assert!(largest[0] > 0.01 * largest[1], "{largest:?}");
     }

@@ -73,7 +73,7 @@ pub fn axial(interface: &ContactInterface) -> Vec<Freedom> {
 /// Asserts that forces are −∂energy/∂displacement, by central differences of a step, to a tolerance of the energy over
 /// the step, and returns the largest ones along r and y.
 pub fn assert_gradient(
-    forces: &dyn Fn(&[Field; 2]) -> (ContactForces, [Field; 2]),
+    forces: impl Fn(&[Field; 2]) -> (ContactForces, [Field; 2]),
     u: &[Field; 2],
     freedoms: impl IntoIterator<Item = Freedom>,
     [step, tolerance]: [f64; 2],

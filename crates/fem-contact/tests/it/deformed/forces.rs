@@ -41,7 +41,7 @@ fn moved_contact_forces_balance_and_derive_from_the_energy() {
         // Rounding of an energy of some ten terms. A missing term would be seen: the smallest terms of the
         // forces, by the ends of intervals, are some 1e-13 of this.
         let freedoms = (0..2).flat_map(of_side);
-        assert_gradient(&|u| scene.forces(u), &u, freedoms, [1e-11, 2e-15]);
+        assert_gradient(|u| scene.forces(u), &u, freedoms, [1e-11, 2e-15]);
         // Forces along y are opposite to rounding, and a rigid body has none along r.
         assert_balance(&total, &f);
         assert!(scene.n_nodes[0] > 1 || f[0][0][0] == 0.0);
