@@ -1,9 +1,10 @@
 //! A rigid sphere as partner: its curvature in the gap, its mass in the reduced mass, and no more.
 
 use crate::common::{
-    GLASS, Scene, assert_balance, assert_close, assert_pulse, assert_restitution, collide,
-    collide_in, explicit, glass, hertz_pulse, material, ting_pulse,
+    GLASS, Scene, assert_balance, assert_close, assert_pulse, assert_restitution, collide, glass,
+    hertz_pulse, material, ting_pulse,
 };
+use crate::explicit_agreement::assert_agreement;
 use fem_collision::{BodyInput, Collision, Frame, OutputRequest, SnapshotRequest};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_contact::ContactError;
@@ -115,11 +116,11 @@ fn mirrored_scenes_give_mirrored_results() {
         assert_close("mirrored", other, one, 1e-12);
     }
     // In both, the lower body strikes.
-    let [lower, upper] = [0, 1].map(|side| one.bodies[side].velocity_after.unwrap());
-    let [mirrored_lower, mirrored_upper] =
-        [0, 1].map(|side| other.bodies[side].velocity_after.unwrap());
-    assert!((lower - (0.5 - mirrored_upper)).abs() < 1e-13);
-    assert!((upper - (0.5 - mirrored_lower)).abs() < 1e-13);
+    let [after, mirrored] =
+        [one, other].map(|run| run.bodies.map(|body| body.velocity_after.unwrap()));
+    for side in 0..2 {
+        assert!((after[side] - (0.5 - mirrored[1 - side])).abs() < 1e-13);
+    }
 }
 
 /// A very stiff partner of the same mass has its share of the approach: T ~ E*^(−2/5), F ~ E*^(2/5) (Hertz).
@@ -155,20 +156,11 @@ fn condensed_rigid_partner_equals_the_explicit_one() {
     let soft = material(GLASS, All, &[(0.8, 5e3)]);
     let hertz = HertzImpact::new(&pair_of(&soft), 0.5).unwrap();
     let stiffness = 5.0 * pair_of(&soft).contact_modulus();
-    let candidate_radius = 1.5 * hertz.max_contact_radius();
     for rigid in 0..2 {
         let inputs = condensed(&soft, rigid, 0.5, 5.0).inputs().clone();
-        let explicit = explicit(inputs.clone(), &hertz, stiffness, &OutputRequest::quantities());
-        let contact = ContactModel::Springs(stiffness);
-        let settings =
-            PairSettings { contact, vibration_modes: 12, ..PairSettings::new(candidate_radius) };
-        let run = collide_in(&CondensedPair::new(inputs, settings).unwrap(), 0.5, 1000);
-        let off = run.restitution.unwrap() - explicit.restitution.unwrap();
-        assert!(off.abs() < 5e-5, "{off:e}");
-        assert_close("approach", run.max_approach.unwrap(), explicit.max_approach.unwrap(), 3e-5);
-        assert_close("force", run.peak_force.unwrap(), explicit.peak_force.unwrap(), 3e-3);
+        let runs = assert_agreement("rigid", inputs, &hertz, stiffness);
         for side in 0..2 {
-            let [found, reference] = [&run, &explicit].map(|run| run.bodies[side]);
+            let [found, reference] = runs.each_ref().map(|run| run.bodies[side]);
             let off = found.velocity_after.unwrap() - reference.velocity_after.unwrap();
             assert!(off.abs() < 5e-5, "{off:e}");
             assert_eq!((found.nodes, found.elements), (reference.nodes, reference.elements));
@@ -212,11 +204,8 @@ fn condensed_pair_rejects_impossible_rigid_bodies() {
         assert!(refused.to_string().starts_with("mass of a rigid sphere is"), "{refused}");
     }
     // A contact that outgrows a small rigid sphere says so.
-    let small = CondensedPair::new(
-        [BodyInput::Rigid { radius: 0.3e-3, mass: 1e-3 }, upper.clone()],
-        scene.settings(),
-    );
-    let small = small.unwrap();
+    let bodies = [BodyInput::Rigid { radius: 0.3e-3, mass: 1e-3 }, upper.clone()];
+    let small = CondensedPair::new(bodies, scene.settings()).unwrap();
     assert_eq!(small.smallest_radius(), 0.3e-3);
     assert!(small.enlarge(1.0).and_then(|whole| whole.enlarge(2.0)).is_err());
 }

@@ -89,15 +89,10 @@ fn labelled_snapshots_are_the_named_instants() {
     }
 }
 
-/// Snapshots and fewer rows change nothing else: evenly spaced states, the steps nearest to given times, and labels.
+/// Snapshots change nothing else: evenly spaced states, the steps nearest to given times, and labels.
 #[test]
 fn output_does_not_disturb_the_run() {
     let plain = &*COARSE_RUN;
-    let few = Pair { history_rows: 20, ..Pair::coarse() }.run();
-    assert!(few.history.len() < 60, "{}", few.history.len());
-    assert_eq!(plain.restitution, few.restitution);
-    assert_eq!(plain.peak_force, few.peak_force);
-    assert_eq!(plain.last_contact, few.last_contact);
     let run = |snapshots| {
         let run = Pair { snapshots, ..Pair::coarse() }.run();
         assert_eq!(run.history, plain.history);

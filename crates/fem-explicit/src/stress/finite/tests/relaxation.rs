@@ -11,6 +11,12 @@ use super::*;
 use crate::test_support::{March, relaxing_glass, scaled};
 
 const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
+
+/// Every law, with every way to relax.
+fn laws_and_modes() -> impl Iterator<Item = (HyperelasticLaw, ActsOn)> {
+    HyperelasticLaw::ALL.into_iter().flat_map(|law| MODES.map(|acts_on| (law, acts_on)))
+}
+
 /// Terms that are fast and slow compared with the paths of the tests, and an equilibrium modulus.
 const TERMS: [(f64, f64); 2] = [(0.3, 0.2), (0.5, 2.0)];
 
@@ -60,11 +66,9 @@ fn held(law: HyperelasticLaw, acts_on: ActsOn) -> (SphereMesh, March) {
 /// Forces are the derivative of the stored energy at fixed internal variables.
 #[test]
 fn forces_are_the_derivative_of_the_stored_energy() {
-    for acts_on in MODES {
-        for law in HyperelasticLaw::ALL {
-            let (_, march) = held(law, acts_on);
-            assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, &law);
-        }
+    for (law, acts_on) in laws_and_modes() {
+        let (_, march) = held(law, acts_on);
+        assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, &law);
     }
 }
 
@@ -73,33 +77,30 @@ fn forces_are_the_derivative_of_the_stored_energy() {
 fn work_of_relaxing_elements_is_stored_or_dissipated() {
     let mesh = mesh();
     let shape = deformed(&mesh);
-    for acts_on in MODES {
-        for law in HyperelasticLaw::ALL {
-            let material = relaxing_glass(&TERMS, acts_on);
-            let residual = |n: u32| {
-                let time_step = 1.0 / f64::from(n);
-                let mut march = March::new(stress(&mesh, &material, law), &mesh, time_step);
-                let (mut work, mut dissipated) = (0.0, 0.0);
-                let (mut f, mut power) = (vector(&march.forces()), 0.0);
-                for k in 1..=n {
-                    let t = f64::from(k) * time_step;
-                    let before = vector(&march.u);
-                    // There, and a third of the way back.
-                    march.step(time_step, &scaled(&shape, t * t * (3.0 - 2.3 * t)));
-                    let (f_next, power_next) =
-                        (vector(&march.forces()), march.energies(&march.u).1);
-                    work -= 0.5 * (&f + &f_next).dot(&(vector(&march.u) - before));
-                    dissipated += 0.5 * time_step * (power + power_next);
-                    (f, power) = (f_next, power_next);
-                }
-                assert!(dissipated > 0.02 * work, "{law:?}: {dissipated} of {work}");
-                (work - march.energies(&march.u).0 - dissipated) / work
-            };
-            let (coarse, fine) = (residual(40), residual(80));
-            let order = (coarse / fine).abs().log2();
-            assert!((order - 2.0).abs() < 0.2, "{law:?} {acts_on:?}: {order} {coarse:e} {fine:e}");
-            assert!(fine.abs() < 1e-3, "{law:?} {acts_on:?}: {fine:e}");
-        }
+    for (law, acts_on) in laws_and_modes() {
+        let material = relaxing_glass(&TERMS, acts_on);
+        let residual = |n: u32| {
+            let time_step = 1.0 / f64::from(n);
+            let mut march = March::new(stress(&mesh, &material, law), &mesh, time_step);
+            let (mut work, mut dissipated) = (0.0, 0.0);
+            let (mut f, mut power) = (vector(&march.forces()), 0.0);
+            for k in 1..=n {
+                let t = f64::from(k) * time_step;
+                let before = vector(&march.u);
+                // There, and a third of the way back.
+                march.step(time_step, &scaled(&shape, t * t * (3.0 - 2.3 * t)));
+                let (f_next, power_next) = (vector(&march.forces()), march.energies(&march.u).1);
+                work -= 0.5 * (&f + &f_next).dot(&(vector(&march.u) - before));
+                dissipated += 0.5 * time_step * (power + power_next);
+                (f, power) = (f_next, power_next);
+            }
+            assert!(dissipated > 0.02 * work, "{law:?}: {dissipated} of {work}");
+            (work - march.energies(&march.u).0 - dissipated) / work
+        };
+        let (coarse, fine) = (residual(40), residual(80));
+        let order = (coarse / fine).abs().log2();
+        assert!((order - 2.0).abs() < 0.2, "{law:?} {acts_on:?}: {order} {coarse:e} {fine:e}");
+        assert!(fine.abs() < 1e-3, "{law:?} {acts_on:?}: {fine:e}");
     }
 }
 
