@@ -40,14 +40,23 @@ fn request(snapshots: SnapshotRequest) -> OutputRequest {
     }
 }
 
-/// Multiplies the velocities of the lower body between two steps.
-fn disturbed(factor: f64) -> Collision {
-    let model = model();
-    let mut run = Run::new(&model, EXPECTED, &request(SnapshotRequest::none()));
+/// A run after 128 steps, of which the velocities of the lower body are multiplied.
+fn disturbed_run<'m>(
+    model: &'m ExplicitBodies,
+    request: &OutputRequest,
+    factor: f64,
+) -> Run<&'m ExplicitBodies> {
+    let mut run = Run::new(model, EXPECTED, request);
     assert_eq!(run.advance(128), None);
     for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
         *v *= factor;
     }
+    run
+}
+
+fn disturbed(factor: f64) -> Collision {
+    let model = model();
+    let mut run = disturbed_run(&model, &request(SnapshotRequest::none()), factor);
     run.advance(u64::MAX);
     run.finish()
 }
@@ -80,12 +89,8 @@ fn a_failed_run_keeps_its_last_valid_state() {
     let model = model();
     let labels = || request(SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]));
     for (request, is_kept) in [(labels(), true), (request(SnapshotRequest::none()), false)] {
-        let mut run = Run::new(&model, EXPECTED, &request);
-        assert_eq!(run.advance(128), None);
+        let mut run = disturbed_run(&model, &request, f64::NAN);
         let disturbed_at = run.restart_state.state.time;
-        for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
-            *v = f64::NAN;
-        }
         run.advance(u64::MAX);
         let collision = run.finish();
         assert!(matches!(collision.stop(), Some(Stop::NoNumber { body: 0, .. })));
@@ -99,9 +104,7 @@ fn a_failed_run_keeps_its_last_valid_state() {
             assert!(fields.all(|value| value.is_finite()));
         }
     }
-    let mut run = Run::new(&model, EXPECTED, &labels());
-    run.advance(128);
-    assert!(run.finish().snapshots.is_empty());
+    assert!(disturbed_run(&model, &labels(), 1.0).finish().snapshots.is_empty());
 }
 
 /// If the state of the stop is valid, it is the last valid one, also in a resumed run.
@@ -120,10 +123,8 @@ fn a_valid_state_at_a_stop_is_the_last_one() {
         panic!()
     };
     let collision = run.finish();
-    assert_eq!(
-        collision.snapshot(SnapshotInstant::LastValid).map(|snapshot| snapshot.time),
-        Some(time)
-    );
+    let last_valid = collision.snapshot(SnapshotInstant::LastValid).unwrap();
+    assert_eq!(last_valid.time, time);
     assert_eq!(collision, resumed.finish());
 }
 
@@ -238,10 +239,8 @@ fn every_step_has_the_energy_of_a_balance() {
             assert!(worst < 1e-12, "{method:?} {stiffness}: {worst:e}");
             // There is something to be seen: springs that open and close within a step.
             let seen = run.restart_state.ledger.worst_residual;
-            assert!(
-                seen >= largest && (seen > 1e-10 || method == SmallStrainContact::Massless),
-                "{seen:e}"
-            );
+            let is_massless = method == SmallStrainContact::Massless;
+            assert!(seen >= largest && (seen > 1e-10 || is_massless), "{seen:e}");
         }
     }
 }

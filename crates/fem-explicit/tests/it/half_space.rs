@@ -9,7 +9,7 @@ use fem_collision::{
 use fem_contact::ContactError;
 use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
 use fem_material::{ActsOn, Material, PronySeries, PronyTerm};
-use fem_mesh::{HalfDisc, QuarterDisc, Side};
+use fem_mesh::{QuarterDisc, Side};
 
 use crate::common::{CONTACT_MODULUS, Hertz, elastic, settings, sphere, sphere_mass};
 
@@ -37,6 +37,7 @@ struct Ball {
     drift: f64,
     /// Far radius over that which waves do not reach.
     reach: f64,
+    /// Growth of the rings of the half-space.
     growth: Option<f64>,
     /// Radius in which contact is looked for over Hertz' contact radius.
     candidates: f64,
@@ -82,14 +83,7 @@ impl Ball {
             mesh: block.build().unwrap().on_side(self.half_space),
             material: glass(self.relaxation.clone()),
         };
-        let disc = HalfDisc {
-            radius: RADIUS,
-            contact_element_size: size,
-            refined_radius,
-            growth: self.growth,
-            edge: None,
-        };
-        let mesh = disc.build().unwrap().on_side(other);
+        let mesh = sphere(RADIUS, size, refined_radius, other);
         let ball = BodyInput::Sphere { mesh, material: glass(None) };
         let (bodies, velocities) = match self.half_space {
             Side::Below => ([block, ball], [0.0, -self.speed]),

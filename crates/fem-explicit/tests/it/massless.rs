@@ -1,7 +1,7 @@
 //! The massless boundary: no energy is gained at any stiffness. See also `collision.rs`.
 
 use crate::common::{Pair, quantities};
-use fem_collision::{BodyInput, Collision, Ending};
+use fem_collision::{BodyInput, Ending};
 use fem_explicit::{ExplicitBodies, SmallStrainContact};
 
 fn coarse() -> Pair {
@@ -36,25 +36,13 @@ fn massless_step_and_energy_are_independent_of_stiffness() {
     }
 }
 
-fn close(one: &Collision, other: &Collision, tolerance: f64) {
-    let numbers = |run: &Collision| {
-        let found = quantities(run);
-        [found.restitution, found.contact_time, found.peak_force, found.peak_pressure]
-    };
-    for (one, other) in numbers(one).into_iter().zip(numbers(other)) {
-        assert!((one / other - 1.0).abs() < tolerance, "{one:e} {other:e}");
-    }
-}
-
-/// A rigid sphere has the same mass and step with any springs; a very large one behaves as a wall.
+/// A rigid sphere has the same mass and step with any springs.
 #[test]
-fn massless_rigid_sphere_conserves_energy_and_becomes_a_wall() {
+fn massless_rigid_sphere_conserves_energy() {
     let with = |body: BodyInput, penalty_factor: f64| {
         let pair = Pair { velocities: [0.0, -0.5], penalty_factor, ..coarse() };
         pair.run_model(&pair.model_of([body, pair.sphere(1)]))
     };
-    let enormous = with(BodyInput::Rigid { radius: 1e10, mass: 1e10 }, 1.0);
-    close(&enormous, &with(BodyInput::Wall, 1.0), 1e-9);
     for penalty_factor in [1.0, 100.0] {
         let run = with(BodyInput::Rigid { radius: 11.1e-3, mass: 13.7e-3 }, penalty_factor);
         let found = quantities(&run);

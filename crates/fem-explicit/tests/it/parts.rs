@@ -17,18 +17,6 @@ fn on_both<F: NodeForce + Clone>(force: &F) -> ModelParts {
     ModelParts { node_forces: [list(), list()], contact: None, ..ModelParts::default() }
 }
 
-/// A part that is off is absent: the same bits, and the same size of the restart state.
-#[test]
-fn default_parts_change_neither_bits_nor_restart_size() {
-    let pair = small();
-    let (plain, other) = (pair.model(), pair.with_parts(ModelParts::default()));
-    assert_eq!(pair.run_model(&plain), pair.run_model(&other));
-    assert_eq!(pair.n_bytes(&plain), pair.n_bytes(&other));
-    // Displacement and velocity of each node, and a few hundred bytes beside.
-    let n_state = 2 * 16 * n_nodes(&plain);
-    assert!((n_state..n_state + 700).contains(&pair.n_bytes(&plain)));
-}
-
 /// Bodies that fall together collide as if they did not fall.
 #[test]
 fn results_are_independent_of_a_common_acceleration() {

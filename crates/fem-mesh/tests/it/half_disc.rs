@@ -170,7 +170,7 @@ fn impossible_parameters_are_refused() {
         (glass(1e-12), "TooLarge"),
     ] {
         let error = format!("{:?}", disc.build().unwrap_err());
-        assert!(error.starts_with(expected), "{disc:?}: {error}");
+        assert!(error.starts_with(expected), "{disc:?}: {error} is no {expected}");
     }
 }
 

@@ -125,3 +125,14 @@ pub fn ragged(meshes: &[SphereMesh; 2], depth: f64) -> [Field; 2] {
         (0..n).map(|k| [depth * noise(k), value(k)]).collect()
     })
 }
+
+/// Asserts that a contact says at forty depths of no pattern that it is closed where forces say so, and counts these.
+/// The innermost point closes at 4e-9 m.
+pub fn n_closed(closed_and_total: impl Fn(f64) -> (bool, ContactForces)) -> usize {
+    let is_closed = |sample| {
+        let (closed, total) = closed_and_total(4e-8 * noise(sample));
+        assert_eq!(closed, total.n_closed > 0, "{sample}");
+        closed
+    };
+    (0..40).filter(|&sample| is_closed(sample)).count()
+}

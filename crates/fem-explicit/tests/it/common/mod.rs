@@ -5,7 +5,9 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
+use fem_collision::{
+    Approach, BodyInput, Collision, Expectation, Monitor, OutputRequest, Progress, SnapshotRequest,
+};
 use fem_explicit::{
     Contact, DeformedContact, ExplicitBodies, ModelError, ModelParts, Run, RunState, Settings,
     SmallStrainContact, collide,
@@ -236,6 +238,19 @@ pub fn stored(state: &RunState) -> RunState {
     let read = postcard::from_bytes(&postcard::to_stdvec(state).unwrap()).unwrap();
     assert_eq!(&read, state);
     read
+}
+
+/// Stores the progress of a run, and stops it once it has come to a step.
+pub struct Watcher {
+    pub stop_at: u64,
+    pub seen: Vec<Progress>,
+}
+
+impl Monitor for Watcher {
+    fn report(&mut self, progress: Progress) -> bool {
+        self.seen.push(progress);
+        progress.step < self.stop_at
+    }
 }
 
 /// Asserts that a restart state fits no model like this.
