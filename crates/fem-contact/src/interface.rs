@@ -251,26 +251,15 @@ pub(crate) fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 
 
 #[cfg(test)]
 mod tests {
-    use fem_mesh::{HalfDisc, Side, SphereMesh};
+    use fem_mesh::Side;
 
     use super::*;
-
-    fn sphere(radius: f64, size: f64, side: Side) -> SphereMesh {
-        HalfDisc {
-            radius,
-            contact_element_size: size,
-            refined_radius: 0.4,
-            growth: None,
-            edge: None,
-        }
-        .build()
-        .unwrap()
-        .on_side(side)
-    }
+    use crate::test_support::sphere;
 
     #[test]
     fn contact_points_have_the_gap_of_the_arcs_and_cover_the_area() {
-        let (lower, upper) = (sphere(2.0, 0.1, Side::Below), sphere(1.0, 0.07, Side::Above));
+        let (lower, upper) =
+            (sphere(2.0, 0.1, 0.4, Side::Below), sphere(1.0, 0.07, 0.4, Side::Above));
         let surfaces = [Surface::of_sphere(&lower), Surface::of_sphere(&upper)];
         let [lower, upper] = surfaces.clone();
         let interface = ContactInterface::new(lower, upper, 1.0, 0.3, 0.5).unwrap();
@@ -299,7 +288,7 @@ mod tests {
     #[test]
     fn equal_meshes_have_one_interval_per_element() {
         let [lower, upper] =
-            [Side::Below, Side::Above].map(|side| Surface::of_sphere(&sphere(1.0, 0.1, side)));
+            [Side::Below, Side::Above].map(|side| Surface::of_sphere(&sphere(1.0, 0.1, 0.4, side)));
         let n_nodes = lower.radii.iter().take_while(|r| **r < 0.39).count();
         let interface = ContactInterface::new(lower, upper, 1.0, 0.0, 0.39).unwrap();
         assert_eq!(interface.n_points(), 2 * n_nodes);

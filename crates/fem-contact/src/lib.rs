@@ -31,6 +31,8 @@ mod pressure_recovery;
 mod profile;
 mod slip;
 mod surface;
+#[cfg(test)]
+mod test_support;
 mod undeformed_forces;
 
 pub use deformed::DeformedInterface;

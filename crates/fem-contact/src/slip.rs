@@ -227,33 +227,25 @@ fn of_nodes<'a>(u: [&'a [Displacement]; 2]) -> [impl Fn(u32) -> Displacement + '
 
 #[cfg(test)]
 mod tests {
-    use fem_mesh::{HalfDisc, Side, SphereMesh};
+    use fem_mesh::{Side, SphereMesh};
 
     use super::*;
     use crate::surface::Surface;
+    use crate::test_support::sphere;
 
     const RADII: [f64; 2] = [2.0, 1.0];
     const SIZE: f64 = 5e-3;
 
-    fn sphere(side: Side) -> SphereMesh {
-        let radius = RADII[usize::from(side == Side::Above)];
-        HalfDisc {
-            radius,
-            contact_element_size: SIZE,
-            refined_radius: 0.4,
-            growth: None,
-            edge: None,
-        }
-        .build()
-        .unwrap()
-        .on_side(side)
+    fn meshes() -> [SphereMesh; 2] {
+        [Side::Below, Side::Above]
+            .map(|side| sphere(RADII[usize::from(side == Side::Above)], SIZE, 0.4, side))
     }
 
     /// Returns the largest gap within r = 0.3, with slip and without, of two surfaces that lie on one curved
     /// interface, y = κx²/2 at x = r + u_r, and that have moved along it by ε r/2 and −ε r. A rigid surface has not
     /// moved and is the interface.
     fn gaps_of_a_closed_interface(epsilon: f64, rigid: Option<usize>) -> [f64; 2] {
-        let meshes = [sphere(Side::Below), sphere(Side::Above)];
+        let meshes = meshes();
         let surfaces = [0, 1].map(|side: usize| match rigid == Some(side) {
             true => Surface::rigid_sphere(RADII[side]).unwrap(),
             false => Surface::of_sphere(&meshes[side]),
@@ -317,7 +309,7 @@ mod tests {
     #[test]
     fn the_opening_of_a_gap_is_its_derivative() {
         for rigid in [None, Some(0)] {
-            let meshes = [sphere(Side::Below), sphere(Side::Above)];
+            let meshes = meshes();
             let [lower, upper] = [0, 1].map(|side: usize| match rigid == Some(side) {
                 true => Surface::rigid_sphere(RADII[side]).unwrap(),
                 false => Surface::of_sphere(&meshes[side]),

@@ -6,7 +6,7 @@ mod bodies;
 #[path = "plain/mod.rs"]
 mod plain;
 
-use bodies::{Kind, mesh_and_glass};
+use bodies::{ELASTIC, KINDS, Kind, mesh_and_glass};
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use plain::Plain;
@@ -18,7 +18,7 @@ fn main() {
     divan::main();
 }
 
-#[divan::bench(args = Kind::ALL, consts = SIZES)]
+#[divan::bench(args = KINDS, consts = SIZES)]
 fn step<const MICROMETRES: u32>(bencher: Bencher<'_, '_>, kind: Kind) {
     let mut sphere = kind.sphere(1e-6 * f64::from(MICROMETRES)).expect("a sphere");
     let elements = ItemsCount::new(sphere.body().n_elements());
@@ -30,7 +30,7 @@ fn step<const MICROMETRES: u32>(bencher: Bencher<'_, '_>, kind: Kind) {
 fn plain_code<const MICROMETRES: u32>(bencher: Bencher<'_, '_>) {
     let size = 1e-6 * f64::from(MICROMETRES);
     let (mesh, glass) = mesh_and_glass(size).expect("a sphere");
-    let mut elastic = Kind::Elastic.sphere(size).expect("a sphere");
+    let mut elastic = ELASTIC.sphere(size).expect("a sphere");
     let mut sphere = Plain::beside(&mesh, &glass, &mut elastic);
     bencher.counter(ItemsCount::new(mesh.quads().len())).bench_local(|| sphere.step());
 }

@@ -1,17 +1,19 @@
 //! Helpers of the unit tests.
 
-use fem_collision::{Approach, BodyInput};
+use fem_collision::{Account, Approach, BodyInput};
 use fem_element::{QuadGeometry, mean_gradient};
+use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 use nalgebra::{DMatrix, DVector};
 
 use crate::body::{Body, BodyState, Clock, UnscaledMesh};
-use crate::model::ExplicitBodies;
-use crate::part::{Accounts, Field};
+use crate::model::{ExplicitBodies, ModelParts};
+use crate::part::{Accounts, Field, Motion, NodalField};
+use crate::run::update_forces;
 use crate::settings::Settings;
-use crate::state::State;
-use crate::stress::Moduli;
+use crate::state::{Scratch, State};
+use crate::stress::{Moduli, Stress};
 
 /// ν = 0.244 in units of density, shear modulus and so of the shear wave's speed.
 pub(crate) fn unit_glass() -> Material {
@@ -57,6 +59,40 @@ pub(crate) fn settings() -> Settings {
     }
 }
 
+/// The unit glass sphere as a body.
+pub(crate) fn glass_sphere(n: f64, side: Side) -> BodyInput {
+    BodyInput::Sphere { mesh: unit_sphere(n, side), material: unit_glass() }
+}
+
+pub(crate) fn upper_at_finite_strain(law: HyperelasticLaw) -> ModelParts {
+    ModelParts { finite_strain: [None, Some(law)], ..ModelParts::default() }
+}
+
+/// A model and its state at first touch.
+pub(crate) fn started(
+    bodies: [BodyInput; 2],
+    approach: Approach,
+    settings: &Settings,
+    parts: ModelParts,
+) -> (ExplicitBodies, State) {
+    let model = ExplicitBodies::with_parts(bodies, approach, settings, parts).unwrap();
+    let state = State::at_first_touch(&model);
+    (model, state)
+}
+
+/// The upper body at rest, and so far from the lower one that they never meet.
+pub(crate) fn far_apart(
+    bodies: [BodyInput; 2],
+    settings: &Settings,
+    parts: ModelParts,
+) -> (ExplicitBodies, State) {
+    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
+    let (model, mut state) = started(bodies, approach, settings, parts);
+    // Back from first touch to the start.
+    state.bodies[0].displacement.fill([0.0; 2]);
+    (model, state)
+}
+
 /// A sphere alone and at rest: a wall far below never meets it.
 pub(crate) fn free_sphere(
     mesh: SphereMesh,
@@ -64,13 +100,35 @@ pub(crate) fn free_sphere(
     step_factor: f64,
 ) -> (ExplicitBodies, State) {
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
-    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let settings = Settings { step_factor, ..settings() };
-    let model = ExplicitBodies::new(bodies, approach, &settings).unwrap();
-    let mut state = State::at_first_touch(&model);
-    state.bodies[0].displacement.fill([0.0; 2]);
-    state.bodies[0].velocity.fill([0.0; 2]);
-    (model, state)
+    far_apart(bodies, &settings, ModelParts::default())
+}
+
+/// −∂f/∂u of these bodies and their contact at a state, from the step's own forces.
+pub(crate) fn tangent(model: &ExplicitBodies, state: &State, sides: &[usize]) -> DMatrix<f64> {
+    let forces = |state: &State| {
+        let mut scratch = Scratch::new(model);
+        update_forces(model, state, &mut scratch).unwrap();
+        let of_bodies = sides.iter().map(|&side| scratch.forces[side].as_flattened());
+        of_bodies.collect::<Vec<_>>().concat()
+    };
+    let freedoms: Vec<_> = sides
+        .iter()
+        .flat_map(|&side| (0..2 * state.bodies[side].displacement.len()).map(move |j| (side, j)))
+        .collect();
+    let step = 1e-6;
+    let mut matrix = DMatrix::zeros(freedoms.len(), freedoms.len());
+    for (j, &(side, freedom)) in freedoms.iter().enumerate() {
+        let moved = |by: f64| {
+            let mut state = state.clone();
+            state.bodies[side].displacement[freedom / 2][freedom % 2] += by;
+            forces(&state)
+        };
+        for (i, (f, g)) in moved(-step).into_iter().zip(moved(step)).enumerate() {
+            matrix[(i, j)] = (f - g) / (2.0 * step);
+        }
+    }
+    (&matrix + matrix.transpose()) * 0.5
 }
 
 /// Numbers in −1/2 .. 1/2 without pattern: the golden ratio's multiples.
@@ -138,4 +196,83 @@ pub(crate) fn largest_eigenvalue(matrix: &DMatrix<f64>, bodies: &[&Body]) -> f64
     let scaled =
         DMatrix::from_fn(root.len(), root.len(), |i, j| matrix[(i, j)] * root[i] * root[j]);
     scaled.symmetric_eigenvalues().max()
+}
+
+/// A body that does not move.
+pub(crate) fn still(displacement: &Field) -> Motion<'_> {
+    Motion { time: 0.0, time_step: 0.0, displacement, velocity: &[], nodal_mass: &[] }
+}
+
+pub(crate) fn scaled(shape: &Field, factor: f64) -> Vec<[f64; 2]> {
+    shape.iter().map(|u| u.map(|u| factor * u)).collect()
+}
+
+/// The elements of a body on a path that the test chooses.
+pub(crate) struct March {
+    pub stress: Box<dyn Stress>,
+    pub history: Vec<NodalField>,
+    pub u: Vec<[f64; 2]>,
+}
+
+impl March {
+    pub fn new(mut stress: Box<dyn Stress>, mesh: &SphereMesh, time_step: f64) -> Self {
+        stress.set_time_step(time_step);
+        let of_elements = vec![vec![[0.0; 2]; mesh.quads().len()]; stress.n_element_history()];
+        let of_nodes = vec![vec![[0.0; 2]; mesh.nodes().len()]; stress.n_history()];
+        let history = [of_elements, of_nodes].concat();
+        Self { stress, history, u: vec![[0.0; 2]; mesh.nodes().len()] }
+    }
+
+    pub fn step(&mut self, time_step: f64, u: &Field) {
+        let rate = |(after, before): (&[f64; 2], &[f64; 2])| {
+            [0, 1].map(|axis: usize| (after[axis] - before[axis]) / time_step)
+        };
+        let velocity: Vec<_> = u.iter().zip(&self.u).map(rate).collect();
+        self.u = u.to_vec();
+        let motion = Motion { time_step, velocity: &velocity, ..still(&self.u) };
+        self.stress.advance(&motion, &mut self.history);
+    }
+
+    pub fn forces(&self) -> Vec<[f64; 2]> {
+        let mut f = vec![[0.0; 2]; self.u.len()];
+        self.stress.subtract_forces(&still(&self.u), &self.history, &mut f).unwrap();
+        f
+    }
+
+    /// Returns the stored energy and the dissipated power.
+    pub fn energies(&self, u: &Field) -> (f64, f64) {
+        let mut accounts = Accounts::default();
+        self.stress.add_energies(&still(u), &self.history, &mut accounts);
+        let power = accounts.powers.get(Account::ViscousDissipation).unwrap();
+        (accounts.energies.get(Account::Strain).unwrap(), power)
+    }
+}
+
+/// Asserts that forces at a displacement are the slope of an energy.
+pub(crate) fn assert_forces_are_slopes(
+    f: &Field,
+    u: &Field,
+    energy: impl Fn(&Field) -> f64,
+    what: &dyn std::fmt::Debug,
+) {
+    let size = vector(f).amax();
+    for k in (0..2 * u.len()).step_by(7) {
+        // Errors of δ² and of rounding over δ are 1e-9 of the largest force.
+        let delta = 1e-5;
+        let at = |shift: f64| {
+            let mut moved = u.to_vec();
+            moved[k / 2][k % 2] += shift;
+            energy(&moved)
+        };
+        let slope = (at(delta) - at(-delta)) / (2.0 * delta);
+        let error = (slope + f[k / 2][k % 2]).abs();
+        assert!(error < 1e-7 * size, "{what:?} {k}: {error:e} of {size}");
+    }
+}
+
+/// Asserts that axial forces sum to zero.
+pub(crate) fn assert_balance(f: &Field) {
+    let (sum, size) = f.iter().fold((0.0, 0.0), |(sum, size), f| (sum + f[1], size + f[1].abs()));
+    // Rounding of a hundred terms.
+    assert!(f64::abs(sum) < 1e-15 * size, "{sum:e} {size}");
 }

@@ -192,14 +192,20 @@ mod tests {
             assert_eq!(layout.n_bytes(), length);
             assert_eq!(layout.decompress(&compressed.blocks, &header[3..]).unwrap(), bytes);
         }
+        // A full last block may carry its size, as meshio writes it.
+        assert_eq!(Layout::new(2, BLOCK_SIZE, BLOCK_SIZE).unwrap().n_bytes(), 2 * BLOCK_SIZE);
+    }
+
+    /// Bytes without pattern.
+    fn noise() -> Vec<u8> {
+        let number = |k: u64| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 40);
+        (0..9000).flat_map(|k| number(k).to_le_bytes()).collect()
     }
 
     /// Numbers without pattern are stored, with a header and a check sum per block; zeros are compressed.
     #[test]
     fn incompressible_blocks_are_stored() {
-        let noise: Vec<u8> = (0..9000u64)
-            .flat_map(|k| (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 40)).to_le_bytes())
-            .collect();
+        let noise = noise();
         let stored = compress(&noise).unwrap().blocks.len();
         assert!(stored > noise.len() && stored < noise.len() + 100, "{stored}");
         let zeros: Vec<u8> = noise
@@ -214,9 +220,7 @@ mod tests {
     #[test]
     fn streams_are_those_of_new_encoders() {
         let smooth: Vec<u8> = (0..5 * BLOCK_SIZE + 77).map(|k| (k / 7 % 251) as u8).collect();
-        let noise: Vec<u8> = (0..9000u64)
-            .flat_map(|k| (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 40)).to_le_bytes())
-            .collect();
+        let noise = noise();
         let levels = [(&smooth, LEVEL), (&noise, Compression::none())];
         for (bytes, level) in levels.into_iter().chain(levels) {
             let stream = |block: &[u8]| {
@@ -227,12 +231,6 @@ mod tests {
             let alone: Vec<u8> = bytes.chunks(BLOCK_SIZE).flat_map(stream).collect();
             assert!(compress(bytes).unwrap().blocks == alone, "{level:?}");
         }
-    }
-
-    #[test]
-    fn a_full_last_block_may_carry_its_size_as_meshio_writes_it() {
-        let layout = Layout::new(2, BLOCK_SIZE, BLOCK_SIZE).unwrap();
-        assert_eq!(layout.n_bytes(), 2 * BLOCK_SIZE);
     }
 
     #[test]

@@ -5,26 +5,18 @@ use std::path::Path;
 use fem_case::{Case, CaseError};
 use fem_material::FlowRule;
 
-use crate::parse_in;
+use crate::{BALL_ON_WALL, parse_in};
 
-const BALL: &str = r#"
-[material.metal]
+const METAL: &str = r#"
+[material.solid]
 density = 8000
 youngs_modulus = "200 GPa"
 poissons_ratio = 0.3
 yield_strength = "235 MPa"
-[[body]]
-name = "ball"
-sphere = { diameter = "1 cm" }
-material = "metal"
-approach_speed = "1 m/s"
-[[body]]
-name = "wall"
-wall = {}
 "#;
 
 fn parse(folder: &Path, overrides: &[&str]) -> Result<Case, CaseError> {
-    parse_in(folder, "ball.toml", BALL, overrides)
+    parse_in(folder, "ball.toml", &format!("{METAL}{BALL_ON_WALL}"), overrides)
 }
 
 fn rule(overrides: &[&str]) -> FlowRule {
@@ -39,33 +31,33 @@ fn stresses(rule: &FlowRule) -> [f64; 3] {
 /// The values of each kind of hardening by hand.
 #[test]
 fn hardening_is_that_of_its_formula() {
-    let perfect = rule(&["material.metal.flow.hardening='perfect'"]);
+    let perfect = rule(&["material.solid.flow.hardening='perfect'"]);
     // The name stands for its table inside of a larger value too.
-    let whole = "material.metal.flow={ yield_strength='235 MPa', hardening='perfect' }";
-    assert_eq!(rule(&[whole]), rule(&["material.metal.flow={ yield_strength='235 MPa' }"]));
+    let whole = "material.solid.flow={ yield_strength='235 MPa', hardening='perfect' }";
+    assert_eq!(rule(&[whole]), rule(&["material.solid.flow={ yield_strength='235 MPa' }"]));
     assert_eq!(stresses(&perfect), [235e6; 3], "the strength is that beside the density");
-    let own = rule(&["material.metal.flow={ yield_strength='1 GPa' }"]);
+    let own = rule(&["material.solid.flow={ yield_strength='1 GPa' }"]);
     assert_eq!(stresses(&own), [1e9; 3]);
-    let linear = rule(&["material.metal.flow.hardening.modulus='2 GPa'"]);
+    let linear = rule(&["material.solid.flow.hardening.modulus='2 GPa'"]);
     assert_eq!(stresses(&linear), [235e6, 435e6, 1235e6]);
-    let swift = rule(&["material.metal.flow.hardening.swift={ strain = 0.1, exponent = 0.5 }"]);
+    let swift = rule(&["material.solid.flow.hardening.swift={ strain = 0.1, exponent = 0.5 }"]);
     let expected = [1.0, 2f64.sqrt(), 6f64.sqrt()].map(|factor| 235e6 * factor);
     for (found, expected) in stresses(&swift).into_iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 1e-12);
     }
-    let table = rule(&["material.metal.flow.hardening.table=[['20 %', '435 MPa']]"]);
+    let table = rule(&["material.solid.flow.hardening.table=[['20 %', '435 MPa']]"]);
     assert_eq!(stresses(&table), [235e6, 335e6, 435e6]);
-    let rate = "material.metal.flow.rate.johnson_cook={ c = 0.01, reference_rate = '1 1/s' }";
+    let rate = "material.solid.flow.rate.johnson_cook={ c = 0.01, reference_rate = '1 1/s' }";
     assert_eq!(rule(&[rate]).flow_stress(0.0, 1.0_f64.exp()), 235e6 * 1.01);
 }
 
 /// One kind of hardening replaces another, and a name stands for a table.
 #[test]
 fn an_override_replaces_the_hardening() {
-    let swift = "material.metal.flow.hardening.swift={ strain = 0.1, exponent = 0.5 }";
-    let linear = "material.metal.flow.hardening.modulus=0";
+    let swift = "material.solid.flow.hardening.swift={ strain = 0.1, exponent = 0.5 }";
+    let linear = "material.solid.flow.hardening.modulus=0";
     assert_eq!(stresses(&rule(&[swift, linear])), [235e6; 3]);
-    assert_eq!(stresses(&rule(&[linear, "material.metal.flow.hardening='perfect'"])), [235e6; 3]);
+    assert_eq!(stresses(&rule(&[linear, "material.solid.flow.hardening='perfect'"])), [235e6; 3]);
 }
 
 /// Tables as people write them give the same rule, which the case keeps without the file.
@@ -74,7 +66,7 @@ fn flow_stress_is_read_from_csv() {
     let folder = tempfile::tempdir().unwrap();
     let of = |text: &str| {
         std::fs::write(folder.path().join("flow.csv"), text).unwrap();
-        parse(folder.path(), &["material.metal.flow.hardening.table='flow.csv'"])
+        parse(folder.path(), &["material.solid.flow.hardening.table='flow.csv'"])
     };
     for text in [
         "plastic_strain,flow_stress_pa\n0,2e8\n0.2,4e8\n",

@@ -4,22 +4,14 @@ use std::path::Path;
 
 use fem_case::{Case, CaseError};
 
-use crate::parse_in;
+use crate::{BALL_ON_WALL, parse_in};
 
-const BALL: &str = r#"
-[material.polymer]
+const POLYMER: &str = r#"
+[material.solid]
 density = 1200
 youngs_modulus = "2 GPa"
 poissons_ratio = 0.35
 relaxation = { file = "polymer.relaxation.toml" }
-[[body]]
-name = "ball"
-sphere = { diameter = "1 cm" }
-material = "polymer"
-approach_speed = "1 m/s"
-[[body]]
-name = "wall"
-wall = {}
 "#;
 
 const SERIES: &str = r#"# a series
@@ -33,7 +25,7 @@ terms = [{ weight = 0.3, relaxation_time = 1e-3 }, { weight = 0.2, decay_rate = 
 fn parse(series: &str, overrides: &[&str]) -> Result<Case, CaseError> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("polymer.relaxation.toml"), series).unwrap();
-    parse_in(folder.path(), "ball.toml", BALL, overrides)
+    parse_in(folder.path(), "ball.toml", &format!("{POLYMER}{BALL_ON_WALL}"), overrides)
 }
 
 fn times(case: &Case) -> Vec<f64> {
@@ -90,7 +82,7 @@ fn faults_of_files_and_temperatures_have_one_answer() {
     };
     // Whole files.
     for (series, expected) in [
-        ("", "the key `acts_on` is missing in material.polymer.relaxation"),
+        ("", "the key `acts_on` is missing in material.solid.relaxation"),
         ("acts_on = 'all'\n", "at least one term"),
         (
             "acts_on = 'all'\nterms = [{ wait = 1 }]\n",
@@ -103,8 +95,8 @@ fn faults_of_files_and_temperatures_have_one_answer() {
     }
     // Overrides of a valid one.
     for (set, expected) in [
-        ("material.polymer.relaxation.file='none.toml'", "none.toml: there is no such file"),
-        ("material.polymer.relaxation.acts_on='all'", "relaxation has file and other keys"),
+        ("material.solid.relaxation.file='none.toml'", "none.toml: there is no such file"),
+        ("material.solid.relaxation.acts_on='all'", "relaxation has file and other keys"),
         ("scene.temperature='-90 degC'", "shift has no value at the temperature -90.0 degC"),
         ("scene.temperature='hot'", "its scale is degC, K or degF"),
         ("scene.temperature=-3", "temperature is -3.0 K"),

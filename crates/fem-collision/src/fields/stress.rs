@@ -271,12 +271,17 @@ mod tests {
     use super::*;
     use fem_mesh::{HalfDisc, Side};
 
-    /// Tension σ has the von Mises stress σ, pure shear τ has √3 τ, and a pressure has none.
+    /// Tension σ has the von Mises stress σ, pure shear τ has √3 τ in any axes, and a pressure has none.
     #[test]
     fn invariants_of_elementary_stress_states_are_known() {
         assert_eq!(invariants([0.0, 2.0, 0.0, 0.0]), (-2.0 / 3.0, 2.0));
         assert_eq!(invariants([0.0, 0.0, 0.0, 2.0]), (0.0, 12f64.sqrt()));
         assert_eq!(invariants([-2.0, -2.0, -2.0, 0.0]), (2.0, 0.0));
+        for shear in [[1.0, -1.0, 0.0, 0.0], [0.0, 1.0, -1.0, 0.0]] {
+            let (pressure, von_mises) = invariants(shear);
+            // A rounding.
+            assert!(pressure == 0.0 && (von_mises - 3f64.sqrt()).abs() < 1e-15, "{shear:?}");
+        }
     }
 
     #[test]

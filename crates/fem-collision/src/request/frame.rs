@@ -96,12 +96,14 @@ impl Frame {
 mod tests {
     use super::*;
 
+    fn frame(speed: f64, masses: [Option<f64>; 2], reduced_mass: f64) -> Frame {
+        Frame { approach: Approach::at(speed).unwrap(), masses, reduced_mass, gravity: 0.0 }
+    }
+
     /// Two spheres that separate at half the speed, by hand: momentum 2·3 + 1·0 is conserved.
     #[test]
     fn momentum_is_kept_and_the_rate_is_the_difference() {
-        let approach = Approach::at(3.0).unwrap();
-        let masses = [Some(2.0), Some(1.0)];
-        let frame = Frame { approach, masses, reduced_mass: 2.0 / 3.0, gravity: 0.0 };
+        let frame = frame(3.0, [Some(2.0), Some(1.0)], 2.0 / 3.0);
         let [lower, upper] = frame.velocities(-1.5);
         assert!((lower - upper + 1.5).abs() < 1e-15);
         assert!((2.0 * lower + upper - 6.0).abs() < 1e-14);
@@ -113,9 +115,7 @@ mod tests {
 
     #[test]
     fn the_energy_scale_includes_the_work_of_the_weight() {
-        let approach = Approach::at(2.0).unwrap();
-        let masses = [None, Some(3.0)];
-        let frame = Frame { approach, masses, reduced_mass: 3.0, gravity: 0.0 };
+        let frame = frame(2.0, [None, Some(3.0)], 3.0);
         // ½ 3 2², and 3 · 10 over a tenth.
         assert_eq!(frame.energy_scale(0.1), 6.0);
         assert_eq!(Frame { gravity: 10.0, ..frame }.energy_scale(0.1), 9.0);
@@ -124,9 +124,7 @@ mod tests {
     /// A wall keeps its velocity; what it gives is force times way.
     #[test]
     fn a_wall_that_moves_does_work() {
-        let approach = Approach::at(2.0).unwrap();
-        let masses = [None, Some(1.0)];
-        let frame = Frame { approach, masses, reduced_mass: 1.0, gravity: 0.0 };
+        let frame = frame(2.0, [None, Some(1.0)], 1.0);
         assert_eq!(frame.velocities(-2.0), [2.0, 4.0]);
         assert_eq!(frame.wall_work(-2.0), 8.0);
         assert_eq!(frame.kinetic(-2.0), 8.0);

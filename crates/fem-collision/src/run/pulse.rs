@@ -326,14 +326,10 @@ mod tests {
             short.observe(time, impulse, 0.5, 2.0);
         }
         let peaks = short.peaks(1.0, 1.0);
-        let of = |force, radius, pressure| PulsePeaks {
-            force,
-            radius,
-            pressure,
-            pressure_radius: radius,
-        };
-        assert_eq!(peaks, of(1.0, 0.5, 2.0));
-        assert_eq!(ForcePulse::default().peaks(0.0, 1.0), of(0.0, 0.0, 0.0));
+        let of = [peaks.force, peaks.radius, peaks.pressure, peaks.pressure_radius];
+        assert_eq!(of, [1.0, 0.5, 2.0, 0.5]);
+        let none = ForcePulse::default().peaks(0.0, 1.0);
+        assert_eq!([none.force, none.radius, none.pressure, none.pressure_radius], [0.0; 4]);
     }
 
     #[test]
@@ -358,11 +354,8 @@ mod tests {
             long.observe(time, impulse, 1.0, 1.0);
             impulse += force / n as f64;
         }
-        assert!(
-            long.is_consistent() && long.samples.len() > MAX_SAMPLES / 2 - 1,
-            "{}",
-            long.samples.len()
-        );
+        let n_samples = long.samples.len();
+        assert!(long.is_consistent() && n_samples > MAX_SAMPLES / 2 - 1, "{n_samples}");
         let strides = long.samples.windows(2).map(|two| (two[1].time - two[0].time) * n as f64);
         assert!(strides.into_iter().all(|stride| (stride - long.stride as f64).abs() < 1e-6));
         assert!((long.peaks(1.0, 1.0).force - 1.0).abs() < 3e-4);

@@ -152,6 +152,10 @@ mod tests {
         Frame { approach, masses: [Some(1.0), None], reduced_mass: 1.0, gravity: 0.0 }
     }
 
+    /// It is closed and still.
+    const HELD: RelativeMotion =
+        RelativeMotion { time: 1.0, is_closed: true, force: 0.0, rate: 0.0, inner_energy: 0.0 };
+
     /// That mass on a spring (N/m) in parallel with a Maxwell element of 1 N/m and a relaxation time (s). Returns the
     /// restitution when the force falls to zero or `stays` is true; `None` if neither happens within `n_steps`.
     fn collide(
@@ -230,9 +234,7 @@ mod tests {
     fn rest_criterion_rejects_the_state_of_other_bodies() {
         let frame = frame();
         let mut rest = RestCriterion::new(&frame);
-        let held =
-            RelativeMotion { time: 1.0, is_closed: true, force: 0.0, rate: 0.0, inner_energy: 0.0 };
-        assert!(rest.is_of(&frame) && rest.observe(&held) && rest.is_of(&frame));
+        assert!(rest.is_of(&frame) && rest.observe(&HELD) && rest.is_of(&frame));
         for other in [
             RestCriterion { speed: 2.0, ..rest },
             RestCriterion { reduced_mass: 2.0, ..rest },
@@ -247,13 +249,8 @@ mod tests {
     #[test]
     fn a_force_equal_to_the_weight_does_not_separate() {
         let frame = Frame { gravity: 2.0, ..frame() };
-        let now = |time: f64, force: f64| RelativeMotion {
-            time,
-            is_closed: true,
-            force,
-            rate: 1e-6,
-            inner_energy: 1e-4 * frame.initial(),
-        };
+        let inner_energy = 1e-4 * frame.initial();
+        let now = |time, force| RelativeMotion { time, force, rate: 1e-6, inner_energy, ..HELD };
         for (force, stays) in [(2.0, true), (2.0 - 1e-4, true), (4.0, false), (0.0, false)] {
             let mut rest = RestCriterion::new(&frame);
             assert!(!rest.observe(&now(1.0, force)));
@@ -267,13 +264,8 @@ mod tests {
         let frame = frame();
         let mut rest = RestCriterion::new(&frame);
         // The energy alone would allow a restitution of 0.01.
-        let now = |time: f64| RelativeMotion {
-            time,
-            is_closed: true,
-            force: 1e-2,
-            rate: -1e-6,
-            inner_energy: 1e-4 * frame.initial(),
-        };
+        let inner_energy = 1e-4 * frame.initial();
+        let now = |time| RelativeMotion { time, force: 1e-2, rate: -1e-6, inner_energy, ..HELD };
         assert!(!rest.observe(&now(1e-3)));
         assert!(!rest.observe(&RelativeMotion { rate: f64::NAN, ..now(1.04e-3) }));
         assert!(!rest.observe(&now(1.05e-3)));

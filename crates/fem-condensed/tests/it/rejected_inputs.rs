@@ -32,12 +32,12 @@ fn contact_beyond_the_candidate_region_is_reported_and_enlarged() {
 fn condensed_pair_rejects_impossible_inputs() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(4.0);
-    let with = |speed: f64, n_steps: usize| pair.impact(speed, [None; 2], n_steps);
     for speed in [0.0, -1.0, f64::INFINITY, f64::NAN] {
-        let refused = with(speed, CondensedPair::N_STEPS);
+        let refused = pair.impact(speed, [None; 2], CondensedPair::N_STEPS);
         assert!(matches!(refused, Err(CondensedError::Approach(_))));
     }
-    assert!(matches!(with(0.5, 3), Err(CondensedError::Setting { .. })));
+    let few_steps = pair.impact(0.5, [None; 2], 3);
+    assert!(matches!(few_steps, Err(CondensedError::Setting { .. })));
     let walls = [BodyInput::Wall, BodyInput::Wall];
     let refused = CondensedPair::new(walls, PairSettings::new(1e-3));
     assert!(matches!(refused, Err(CondensedError::Contact(_))));

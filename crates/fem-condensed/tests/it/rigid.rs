@@ -1,11 +1,12 @@
 //! A rigid sphere as partner: its curvature in the gap, its mass in the reduced mass, and no more.
 
 use crate::common::{
-    GLASS, Scene, assert_balance, assert_close, assert_pulse, assert_restitution, collide,
-    collide_in, explicit, glass, hertz_pulse, material, ting_pulse,
+    GLASS, Scene, assert_balance, assert_close, assert_pulse, assert_restitution, collide, glass,
+    hertz_pulse, material, ting_pulse,
 };
+use crate::explicit_agreement::assert_agreement;
 use fem_collision::{BodyInput, Collision, Frame, OutputRequest, SnapshotRequest};
-use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
+use fem_condensed::{CondensedError, CondensedPair, PairSettings};
 use fem_contact::ContactError;
 use fem_laws::{FiniteSize, HertzImpact, Pair, PairRelaxation, Partner, Ting, sphere_mass};
 use fem_material::ActsOn::{All, Shear};
@@ -88,24 +89,6 @@ fn numbers(run: &Collision) -> [f64; 6] {
     ]
 }
 
-/// r²/2R = 1e-17 m of a sphere of 1e10 m, with penalty springs too.
-#[test]
-fn an_enormous_rigid_sphere_is_a_wall() {
-    let scene = Scene { bodies: [None, Some((15.9e-3, glass()))], speed: 0.5 };
-    for contact in [ContactModel::Exact, ContactModel::Springs(1e12)] {
-        let settings = PairSettings { contact, vibration_modes: 4, ..scene.settings() };
-        let run = |lower: BodyInput| {
-            let [_, upper] = scene.inputs(6.0);
-            scene.collide(&CondensedPair::new([lower, upper], settings).unwrap())
-        };
-        let wall = run(BodyInput::Wall);
-        let round = run(BodyInput::Rigid { radius: 1e10, mass: 1e10 });
-        for (wall, round) in numbers(&wall).into_iter().zip(numbers(&round)) {
-            assert_close("wall", round, wall, 1e-9);
-        }
-    }
-}
-
 /// Swapped bodies are in the mirror, to the last digits; velocities of the frame too.
 #[test]
 fn mirrored_scenes_give_mirrored_results() {
@@ -115,11 +98,11 @@ fn mirrored_scenes_give_mirrored_results() {
         assert_close("mirrored", other, one, 1e-12);
     }
     // In both, the lower body strikes.
-    let [lower, upper] = [0, 1].map(|side| one.bodies[side].velocity_after.unwrap());
-    let [mirrored_lower, mirrored_upper] =
-        [0, 1].map(|side| other.bodies[side].velocity_after.unwrap());
-    assert!((lower - (0.5 - mirrored_upper)).abs() < 1e-13);
-    assert!((upper - (0.5 - mirrored_lower)).abs() < 1e-13);
+    let [after, mirrored] =
+        [one, other].map(|run| run.bodies.map(|body| body.velocity_after.unwrap()));
+    for side in 0..2 {
+        assert!((after[side] - (0.5 - mirrored[1 - side])).abs() < 1e-13);
+    }
 }
 
 /// A very stiff partner of the same mass has its share of the approach: T ~ E*^(−2/5), F ~ E*^(2/5) (Hertz).
@@ -155,20 +138,11 @@ fn condensed_rigid_partner_equals_the_explicit_one() {
     let soft = material(GLASS, All, &[(0.8, 5e3)]);
     let hertz = HertzImpact::new(&pair_of(&soft), 0.5).unwrap();
     let stiffness = 5.0 * pair_of(&soft).contact_modulus();
-    let candidate_radius = 1.5 * hertz.max_contact_radius();
     for rigid in 0..2 {
         let inputs = condensed(&soft, rigid, 0.5, 5.0).inputs().clone();
-        let explicit = explicit(inputs.clone(), &hertz, stiffness, &OutputRequest::quantities());
-        let contact = ContactModel::Springs(stiffness);
-        let settings =
-            PairSettings { contact, vibration_modes: 12, ..PairSettings::new(candidate_radius) };
-        let run = collide_in(&CondensedPair::new(inputs, settings).unwrap(), 0.5, 1000);
-        let off = run.restitution.unwrap() - explicit.restitution.unwrap();
-        assert!(off.abs() < 5e-5, "{off:e}");
-        assert_close("approach", run.max_approach.unwrap(), explicit.max_approach.unwrap(), 3e-5);
-        assert_close("force", run.peak_force.unwrap(), explicit.peak_force.unwrap(), 3e-3);
+        let runs = assert_agreement("rigid", inputs, &hertz, stiffness);
         for side in 0..2 {
-            let [found, reference] = [&run, &explicit].map(|run| run.bodies[side]);
+            let [found, reference] = runs.each_ref().map(|run| run.bodies[side]);
             let off = found.velocity_after.unwrap() - reference.velocity_after.unwrap();
             assert!(off.abs() < 5e-5, "{off:e}");
             assert_eq!((found.nodes, found.elements), (reference.nodes, reference.elements));
@@ -212,11 +186,8 @@ fn condensed_pair_rejects_impossible_rigid_bodies() {
         assert!(refused.to_string().starts_with("mass of a rigid sphere is"), "{refused}");
     }
     // A contact that outgrows a small rigid sphere says so.
-    let small = CondensedPair::new(
-        [BodyInput::Rigid { radius: 0.3e-3, mass: 1e-3 }, upper.clone()],
-        scene.settings(),
-    );
-    let small = small.unwrap();
+    let bodies = [BodyInput::Rigid { radius: 0.3e-3, mass: 1e-3 }, upper.clone()];
+    let small = CondensedPair::new(bodies, scene.settings()).unwrap();
     assert_eq!(small.smallest_radius(), 0.3e-3);
     assert!(small.enlarge(1.0).and_then(|whole| whole.enlarge(2.0)).is_err());
 }

@@ -24,6 +24,16 @@ fn drawn(
     pair.collide(&frame, pair.relaxations(), n_steps, &request, &mut ()).unwrap()
 }
 
+/// Σ m u_y of a field.
+fn moment(masses: &[f64], field: &[[f64; 2]]) -> f64 {
+    masses.iter().zip(field).map(|(m, u)| m * u[1]).sum()
+}
+
+/// The mean of a field along y, by mass.
+fn centre(masses: &[f64], field: &[[f64; 2]]) -> f64 {
+    moment(masses, field) / masses.iter().sum::<f64>()
+}
+
 /// Everything that the snapshots say about the bodies as a whole, for every kind of body.
 #[test]
 fn snapshots_agree_with_the_rigid_body_motion() {
@@ -50,11 +60,8 @@ fn snapshots_agree_with_the_rigid_body_motion() {
             let mut centres = [0.0; 2];
             for (side, fields) in snapshot.bodies.iter().enumerate() {
                 let masses = pair.nodal_masses(side);
-                let mean = |field: &[[f64; 2]]| {
-                    masses.iter().zip(field).map(|(m, u)| m * u[1]).sum::<f64>()
-                };
-                total += mean(&fields.velocity);
-                centres[side] = mean(&snapshot.displacement(side)) / pair.masses()[side];
+                total += moment(masses, &fields.velocity);
+                centres[side] = moment(masses, &snapshot.displacement(side)) / pair.masses()[side];
             }
             // Rounding of fields of 1e-5 m.
             assert!((total / momentum - 1.0).abs() < 1e-9);
@@ -75,23 +82,15 @@ fn snapshots_agree_with_the_rigid_body_motion() {
             let BodyInput::Sphere { mesh, material } = input else { continue };
             let stress =
                 StressField::of(mesh, material, &maximum.bodies[side], Some(&maximum.contact));
+            let contact_radius = run.max_contact_radius.unwrap();
+            let peak_pressure = run.peak_pressure.unwrap();
+            let hertz = fem_laws::HertzPressure { contact_radius, peak_pressure };
             let depth = |node: u32| mesh.nodes()[node as usize][1].abs();
-            for &node in mesh
-                .axis()
-                .iter()
-                .filter(|&&node| depth(node) < 3.0 * run.max_contact_radius.unwrap())
-            {
-                let hertz = fem_laws::HertzPressure {
-                    contact_radius: run.max_contact_radius.unwrap(),
-                    peak_pressure: run.peak_pressure.unwrap(),
-                };
+            for &node in mesh.axis().iter().filter(|&&node| depth(node) < 3.0 * contact_radius) {
                 let expected = hertz.axis_stress(depth(node), 0.244).axial;
                 let found = stress.points[node as usize][1];
                 // Recovered from elements of an eighth of the radius; 4 % at the surface.
-                assert!(
-                    (found - expected).abs() < 0.05 * run.peak_pressure.unwrap(),
-                    "{found} {expected}"
-                );
+                assert!((found - expected).abs() < 0.05 * peak_pressure, "{found} {expected}");
             }
         }
     }
@@ -147,10 +146,8 @@ fn vibration_energy_is_that_of_the_fields() {
         let masses = pair.nodal_masses(side);
         let kinetic = run.snapshots.iter().map(|snapshot| {
             let velocity = &snapshot.bodies[side].velocity;
-            let nodes = || masses.iter().zip(velocity);
-            let mass: f64 = masses.iter().sum();
-            let mean = nodes().map(|(m, v)| m * v[1]).sum::<f64>() / mass;
-            0.5 * nodes().map(|(m, v)| m * (v[0] * v[0] + (v[1] - mean).powi(2))).sum::<f64>()
+            let (nodes, mean) = (masses.iter().zip(velocity), centre(masses, velocity));
+            0.5 * nodes.map(|(m, v)| m * (v[0] * v[0] + (v[1] - mean).powi(2))).sum::<f64>()
         });
         let of_fields = 2.0 * kinetic.sum::<f64>() / run.snapshots.len() as f64;
         let reported = run.bodies[side].vibration_energy.unwrap();
@@ -181,8 +178,7 @@ fn effective_displacement_is_the_convolution_with_the_modulus() {
         let masses = pair.nodal_masses(side);
         // About the mass centre.
         let deformed = |field: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            let nodes = || masses.iter().zip(field);
-            let mean = nodes().map(|(m, u)| m * u[1]).sum::<f64>() / masses.iter().sum::<f64>();
+            let mean = centre(masses, field);
             field.iter().map(|u| [u[0], u[1] - mean]).collect()
         };
         let n = run.snapshots[0].bodies[side].displacement.len();
@@ -253,12 +249,10 @@ fn fields_are_the_explicit_ones() {
             let pairs = a.as_flattened().iter().zip(b.as_flattened());
             pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
-        let displaced = |run: &Collision| run.snapshots[0].displacement(side);
+        let [one, other] = [&run, &reference].map(|run| run.snapshots[0].displacement(side));
         // Against the approach. The instants differ by up to a step of either model, 4e-8 s, in
         // which the bodies move by 1e-8 m: 1e-3 of the approach.
-        assert!(
-            distance(&displaced(&run), &displaced(&reference)) < 3e-3 * run.max_approach.unwrap()
-        );
+        assert!(distance(&one, &other) < 3e-3 * run.max_approach.unwrap());
         // The effective displacements differ by a rigid motion that no stress sees.
         let stress = |fields| {
             let input = &pair.inputs()[side];

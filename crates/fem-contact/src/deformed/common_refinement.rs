@@ -207,30 +207,27 @@ impl<U: Fn(u32) -> [f64; 2]> RefinementWalk<'_, U> {
 
 #[cfg(test)]
 mod tests {
-    use fem_mesh::{HalfDisc, Side};
+    use fem_mesh::Side;
 
     use super::*;
     use crate::surface::Surface;
+    use crate::test_support::sphere;
 
-    fn sphere(radius: f64, contact_element_size: f64, side: Side) -> Surface {
-        let disc = HalfDisc {
-            radius,
-            contact_element_size,
-            refined_radius: 0.3,
-            growth: None,
-            edge: None,
-        };
-        Surface::of_sphere(&disc.build().unwrap().on_side(side))
+    fn surface(radius: f64, contact_element_size: f64, side: Side) -> Surface {
+        Surface::of_sphere(&sphere(radius, contact_element_size, 0.3, side))
     }
 
     /// The lower bound of the depth finds the same closed points as the arcs do, and evaluates the arcs of few
     /// others, which decides the cost of the contact. A sphere is pressed on a sphere, a rigid sphere and a plane.
     #[test]
     fn open_points_are_found_without_evaluating_arcs() {
-        let others =
-            [sphere(1.0, 0.011, Side::Above), Surface::rigid_sphere(1.5).unwrap(), Surface::wall()];
+        let others = [
+            surface(1.0, 0.011, Side::Above),
+            Surface::rigid_sphere(1.5).unwrap(),
+            Surface::wall(),
+        ];
         for upper in others {
-            let lower = sphere(2.0, 0.01, Side::Below);
+            let lower = surface(2.0, 0.01, Side::Below);
             let interface = DeformedInterface::new(lower, upper, 1.0, 1e-4, 0.3).unwrap();
             let radii = interface.surfaces.each_ref().map(|surface| {
                 let of = surface.nodes.iter().zip(&surface.radii);

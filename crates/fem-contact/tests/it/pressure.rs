@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Field, STIFFNESS, forces, glass_pair, interface, rigid};
-use fem_mesh::{SphereMesh, segment_measures};
+use crate::common::{Field, STIFFNESS, forces, glass_pair, interface, rigid, tributary_area};
+use fem_mesh::SphereMesh;
 
 const CONTACT_RADIUS: f64 = 0.223e-3;
 const PEAK_PRESSURE: f64 = 1.027e9;
@@ -70,11 +70,7 @@ fn nodal_pressures_add_up_to_the_force() {
         for (k, (r, p)) in pressures.enumerate() {
             let node = mesh.surface()[k] as usize;
             assert_eq!(r, mesh.nodes()[node][0]);
-            let r = |k: usize| [mesh.nodes()[mesh.surface()[k] as usize][0], 0.0];
-            let mut area = segment_measures(r(k), r(k + 1))[0];
-            if k > 0 {
-                area += segment_measures(r(k - 1), r(k))[1];
-            }
+            let area = tributary_area(mesh, k);
             // Where pieces are joined, nodes that lie 1e-5 of a segment apart share one's area; the
             // contact ends well before the candidates do.
             let off = (p * area + sign * f[side][node][1]).abs() / total.force;

@@ -1,7 +1,8 @@
 //! Surfaces that slip on each other: energy, balance, and where it is nothing.
 
 use crate::common::{
-    Field, STIFFNESS, assert_balance, forces, glass_pair, interface, noise, ragged, sphere,
+    Field, STIFFNESS, assert_balance, assert_gradient, forces, glass_pair, interface, n_closed,
+    ragged, sphere,
 };
 use fem_contact::{ContactForces, ContactInterface, SlippingInterface, Surface};
 use fem_mesh::Side;
@@ -41,28 +42,17 @@ fn slipping_forces_balance_and_derive_from_the_energy() {
         let (total, f) = slipping_forces(&interface, &u);
         assert!(total.n_closed > 10 && total.n_closed < interface.interface().n_points());
         assert_balance(&total, &f);
-        let step = 1e-10;
-        let mut largest = [0.0; 2];
-        for side in 0..2 {
-            for node in interface.interface().candidate_nodes(side) {
-                // A rigid body does not move along r.
-                let first = usize::from(u[side].len() == 1);
-                for axis in first..2 {
-                    let energy = |change: f64| {
-                        let mut moved = u.clone();
-                        moved[side][node as usize][axis] += change;
-                        slipping_forces(&interface, &moved).0.energy
-                    };
-                    let slope = (energy(step) - energy(-step)) / (2.0 * step);
-                    let force = f[side][node as usize][axis];
-                    // Rounding of the energy over the step; it is of fourth order in u, whose third
-                    // derivative is worth (step/20 µm)² of it.
-                    let error = (force + slope).abs();
-                    assert!(error < 1e-13 * total.energy / step, "{error:e} {total:?}");
-                    largest[axis] = force.abs().max(largest[axis]);
-                }
-            }
-        }
+        // A rigid body does not move along r.
+        let of_side = |side: usize| {
+            let axes = usize::from(u[side].len() == 1)..2;
+            let nodes = interface.interface().candidate_nodes(side);
+            nodes.flat_map(move |node| axes.clone().map(move |axis| (side, node as usize, axis)))
+        };
+        // Rounding of the energy over the step; it is of fourth order in u, whose third derivative is worth
+        // (step/20 µm)² of it.
+        let freedoms = (0..2).flat_map(of_side);
+        let forces = |u: &[Field; 2]| slipping_forces(&interface, u);
+        let largest = assert_gradient(forces, &u, freedoms, [1e-10, 1e-13]);
         // Radial forces are not negligible: slopes are up to 0.04, and ragged ones more.
         assert!(largest[0] > 0.01 * largest[1], "{largest:?}");
     }
@@ -92,27 +82,21 @@ fn equal_surface_motion_gives_the_forces_without_slip() {
     assert!((plain.centre_pressure(of) / slipping.centre_pressure(of) - 1.0).abs() < 1e-12);
 }
 
+/// The slope at the innermost point, 2e-3, takes 1e-8 m of the depth away or adds it.
 #[test]
 fn is_closed_agrees_with_the_slipping_forces() {
     let meshes = glass_pair([30e-6, 37e-6]);
     let interface = SlippingInterface::new(interface(&meshes, 0.4e-3));
-    let mut n_closed = 0;
-    for sample in 0..40 {
-        // The innermost point closes at 4e-9 m without slip; the slope there, 2e-3, takes 1e-8 m of it away
-        // or adds it.
-        let depth = 4e-8 * noise(sample);
+    let n_closed = n_closed(|depth| {
         let mut u = ragged(&meshes, 1e-5);
         u[0].iter_mut().for_each(|u| u[1] = depth);
         u[1].iter_mut().for_each(|u| u[1] = 0.0);
-        let (total, _) = slipping_forces(&interface, &u);
         let at = |side: usize| {
             let u = &u[side];
             move |node: u32| u[node as usize]
         };
-        let closed = interface.is_closed([at(0), at(1)]);
-        assert_eq!(closed, total.n_closed > 0, "{sample}");
-        n_closed += usize::from(closed);
-    }
+        (interface.is_closed([at(0), at(1)]), slipping_forces(&interface, &u).0)
+    });
     assert!(n_closed > 5 && n_closed < 35, "{n_closed}");
 }
 

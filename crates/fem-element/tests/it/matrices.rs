@@ -1,9 +1,7 @@
 //! Matrices of single elements, and the two kinds against each other.
 
-use crate::common::{BULK, DISTORTED, KINDS, SHEAR, noise};
-use fem_element::{
-    ElementMatrix, QuadGeometry, b_bar, largest_eigenvalue, mean_gradient, mean_gradient_stiffness,
-};
+use crate::common::{BULK, DISTORTED, KINDS, SHEAR};
+use fem_element::{ElementMatrix, QuadGeometry, b_bar, mean_gradient, mean_gradient_stiffness};
 use nalgebra::SVector;
 
 type Displacement = SVector<f64, 8>;
@@ -101,34 +99,6 @@ fn hourglass_stiffness_approaches_b_bar_at_second_order() {
     assert!(bending_deviation(8.0, 0.3) < 1e-3);
     // The axial pattern has no hoop strain: rounding, even at the axis.
     assert!(bending_deviation(0.5, 0.0) < 1e-13, "{}", bending_deviation(0.5, 0.0));
-}
-
-#[test]
-fn largest_eigenvalue_of_a_known_matrix() {
-    let stiffness = ElementMatrix::from_diagonal(&Displacement::from_column_slice(&[
-        9.0, 1.0, 2.0, 6.0, 1.0, 1.0, 1.0, 1.0,
-    ]));
-    let masses = [1.0, 2.0, 3.0, 4.0];
-    let largest = |masses, on_axis| largest_eigenvalue(&stiffness, masses, on_axis);
-    // Rounding of the square roots.
-    assert!((largest(&masses, [false; 4]) - 9.0).abs() < 1e-14);
-    assert!((largest(&masses, [true, false, false, false]) - 3.0).abs() < 1e-14);
-    assert!((largest(&[0.0, 2.0, 3.0, 4.0], [false; 4]) - 3.0).abs() < 1e-14);
-}
-
-/// No displacement has a larger Rayleigh quotient.
-#[test]
-fn largest_eigenvalue_is_above_every_quotient() {
-    let matrix = mean_gradient(&QuadGeometry::new(&DISTORTED)).combine(BULK, SHEAR);
-    let masses = QuadGeometry::new(&DISTORTED).nodal_volumes;
-    let largest = largest_eigenvalue(&matrix, &masses, [false; 4]);
-    let mut best: f64 = 0.0;
-    for sample in 0..200 {
-        let u = Displacement::from_fn(|i, _| noise(8 * sample + i));
-        let inertia: f64 = (0..8).map(|i| masses[i / 2] * u[i] * u[i]).sum();
-        best = best.max(2.0 * energy(&matrix, &u) / inertia);
-    }
-    assert!(best <= largest && best > 0.3 * largest, "{best} {largest}");
 }
 
 /// Both functions give the same stiffness matrix of a skew quad with a corner on the axis.

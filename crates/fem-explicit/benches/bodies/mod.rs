@@ -12,70 +12,56 @@ const RADIUS: f64 = 11.1e-3;
 /// These constructions cannot fail.
 pub type Error = Box<dyn std::error::Error>;
 
-/// A way to compute an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Hooke's law on a mesh that is made here.
-    Elastic,
-    /// The same elements, their nodes in no order, as a file may have them.
-    Unordered,
-    /// All moduli relax, one term.
-    Relaxing,
-    /// All moduli relax, three terms.
-    ThreeTerms,
-    /// Shear relaxes, one term.
-    RelaxingShear,
-    /// Neo-Hooke at finite strain.
-    FiniteStrain,
-    /// The same, and it relaxes, one term.
-    FiniteRelaxing,
+/// A way to compute an element: its name, the weights of relaxation terms and what they act on.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    name: &'static str,
+    weights: &'static [f64],
+    acts_on: ActsOn,
+    is_finite: bool,
+    /// Whether the nodes are in the order of a mesh that is made here, and not in none, as a file may have them.
+    is_ordered: bool,
 }
 
-impl Kind {
-    /// All, in the order of the table.
-    pub const ALL: [Self; 7] = [
-        Self::Elastic,
-        Self::Unordered,
-        Self::Relaxing,
-        Self::ThreeTerms,
-        Self::RelaxingShear,
-        Self::FiniteStrain,
-        Self::FiniteRelaxing,
-    ];
-}
+/// Hooke's law.
+pub const ELASTIC: Kind = Kind {
+    name: "elastic",
+    weights: &[],
+    acts_on: ActsOn::All,
+    is_finite: false,
+    is_ordered: true,
+};
+
+/// All, in the order of the table.
+pub const KINDS: [Kind; 7] = [
+    ELASTIC,
+    Kind { name: "elastic, nodes in no order", is_ordered: false, ..ELASTIC },
+    Kind { name: "all moduli relax, one term", weights: &[0.5], ..ELASTIC },
+    Kind { name: "all moduli relax, three terms", weights: &[0.4, 0.3, 0.2], ..ELASTIC },
+    Kind { name: "shear relaxes, one term", weights: &[0.5], acts_on: ActsOn::Shear, ..ELASTIC },
+    Kind { name: "finite strain, neo-Hooke", is_finite: true, ..ELASTIC },
+    Kind {
+        name: "finite strain that relaxes, one term",
+        weights: &[0.5],
+        is_finite: true,
+        ..ELASTIC
+    },
+];
 
 impl Display for Kind {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Elastic => "elastic",
-            Self::Unordered => "elastic, nodes in no order",
-            Self::Relaxing => "all moduli relax, one term",
-            Self::ThreeTerms => "all moduli relax, three terms",
-            Self::RelaxingShear => "shear relaxes, one term",
-            Self::FiniteStrain => "finite strain, neo-Hooke",
-            Self::FiniteRelaxing => "finite strain that relaxes, one term",
-        })
+        f.write_str(self.name)
     }
 }
 
 impl Kind {
     /// A sphere that breathes, its elements at the contact of a size (m).
     pub fn sphere(self, size: f64) -> Result<FreeMotion, Error> {
-        let mesh = mesh(size)?;
-        let mut sphere = match self {
-            Self::Elastic => FreeMotion::new(mesh, &glass(&[], ActsOn::All)?, 0.9)?,
-            Self::Unordered => FreeMotion::new(unordered(&mesh)?, &glass(&[], ActsOn::All)?, 0.9)?,
-            Self::Relaxing => FreeMotion::new(mesh, &glass(&[0.5], ActsOn::All)?, 0.9)?,
-            Self::ThreeTerms => FreeMotion::new(mesh, &glass(&[0.4, 0.3, 0.2], ActsOn::All)?, 0.9)?,
-            Self::RelaxingShear => FreeMotion::new(mesh, &glass(&[0.5], ActsOn::Shear)?, 0.9)?,
-            Self::FiniteStrain => {
-                let (glass, law) = (glass(&[], ActsOn::All)?, HyperelasticLaw::NeoHooke);
-                FreeMotion::at_finite_strain(mesh, &glass, law, 0.9)?
-            }
-            Self::FiniteRelaxing => {
-                let (glass, law) = (glass(&[0.5], ActsOn::All)?, HyperelasticLaw::NeoHooke);
-                FreeMotion::at_finite_strain(mesh, &glass, law, 0.9)?
-            }
+        let (mesh, glass) = (mesh(size)?, glass(self.weights, self.acts_on)?);
+        let mesh = if self.is_ordered { mesh } else { unordered(&mesh)? };
+        let mut sphere = match self.is_finite {
+            true => FreeMotion::at_finite_strain(mesh, &glass, HyperelasticLaw::NeoHooke, 0.9)?,
+            false => FreeMotion::new(mesh, &glass, 0.9)?,
         };
         sphere.set_velocity(|[r, y]| [r, y - RADIUS]);
         Ok(sphere)

@@ -6,15 +6,25 @@ use fem_mesh::Side;
 use super::phases::is_closed_next;
 use super::*;
 use crate::state::{Scratch, State};
-use crate::test_support::{settings, sphere, unit_glass};
+use crate::test_support::{settings, sphere, started, unit_glass};
 use crate::{ModelParts, Settings, SmallStrainContact};
 
-/// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
+/// Unit spheres at a hundredth of the wave's speed, two elements a block's side; or the upper one on a wall.
+fn on_springs(
+    contact_stiffness: f64,
+    method: SmallStrainContact,
+    has_wall: bool,
+) -> ExplicitBodies {
+    let sphere = |side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() };
+    let lower = if has_wall { BodyInput::Wall } else { sphere(Side::Below) };
+    let settings = Settings { contact_stiffness, ..settings() };
+    let parts = ModelParts { method, ..ModelParts::default() };
+    let approach = Approach::at(0.01).unwrap();
+    started([lower, sphere(Side::Above)], approach, &settings, parts).0
+}
+
 fn model() -> ExplicitBodies {
-    let bodies = [Side::Below, Side::Above]
-        .map(|side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() });
-    let settings = Settings { contact_stiffness: 5.0, ..settings() };
-    ExplicitBodies::new(bodies, Approach::at(0.01).unwrap(), &settings).unwrap()
+    on_springs(5.0, SmallStrainContact::Penalty, false)
 }
 
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
@@ -30,14 +40,23 @@ fn request(snapshots: SnapshotRequest) -> OutputRequest {
     }
 }
 
-/// Multiplies the velocities of the lower body between two steps.
-fn disturbed(factor: f64) -> Collision {
-    let model = model();
-    let mut run = Run::new(&model, EXPECTED, &request(SnapshotRequest::none()));
+/// A run after 128 steps, of which the velocities of the lower body are multiplied.
+fn disturbed_run<'m>(
+    model: &'m ExplicitBodies,
+    request: &OutputRequest,
+    factor: f64,
+) -> Run<&'m ExplicitBodies> {
+    let mut run = Run::new(model, EXPECTED, request);
     assert_eq!(run.advance(128), None);
     for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
         *v *= factor;
     }
+    run
+}
+
+fn disturbed(factor: f64) -> Collision {
+    let model = model();
+    let mut run = disturbed_run(&model, &request(SnapshotRequest::none()), factor);
     run.advance(u64::MAX);
     run.finish()
 }
@@ -57,6 +76,10 @@ fn added_energy_stops_the_run() {
     assert!(run.history.iter().all(|row| row.time < time));
     assert!(run.residual_relative.unwrap() > 0.05, "the residual must fail");
     assert_eq!(run.restitution, None);
+    // Without a modification the run ends normally.
+    let run = disturbed(1.0);
+    assert_eq!(run.ending, Ending::Parted);
+    assert!(run.restitution.unwrap() > 0.98, "{:?}", run.restitution);
 }
 
 /// A run that fails keeps the last state with a valid energy balance. A run that is interrupted, or without requested
@@ -66,12 +89,8 @@ fn a_failed_run_keeps_its_last_valid_state() {
     let model = model();
     let labels = || request(SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]));
     for (request, is_kept) in [(labels(), true), (request(SnapshotRequest::none()), false)] {
-        let mut run = Run::new(&model, EXPECTED, &request);
-        assert_eq!(run.advance(128), None);
+        let mut run = disturbed_run(&model, &request, f64::NAN);
         let disturbed_at = run.restart_state.state.time;
-        for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
-            *v = f64::NAN;
-        }
         run.advance(u64::MAX);
         let collision = run.finish();
         assert!(matches!(collision.stop(), Some(Stop::NoNumber { body: 0, .. })));
@@ -85,9 +104,7 @@ fn a_failed_run_keeps_its_last_valid_state() {
             assert!(fields.all(|value| value.is_finite()));
         }
     }
-    let mut run = Run::new(&model, EXPECTED, &labels());
-    run.advance(128);
-    assert!(run.finish().snapshots.is_empty());
+    assert!(disturbed_run(&model, &labels(), 1.0).finish().snapshots.is_empty());
 }
 
 /// If the state of the stop is valid, it is the last valid one, also in a resumed run.
@@ -106,10 +123,8 @@ fn a_valid_state_at_a_stop_is_the_last_one() {
         panic!()
     };
     let collision = run.finish();
-    assert_eq!(
-        collision.snapshot(SnapshotInstant::LastValid).map(|snapshot| snapshot.time),
-        Some(time)
-    );
+    let last_valid = collision.snapshot(SnapshotInstant::LastValid).unwrap();
+    assert_eq!(last_valid.time, time);
     assert_eq!(collision, resumed.finish());
 }
 
@@ -123,14 +138,6 @@ fn numbers_that_are_not_finite_stop_the_run() {
         assert!(run.history.iter().all(is_sound), "a bad row is kept");
         assert!(!run.residual_relative.unwrap().is_finite());
     }
-}
-
-/// Without a modification the run ends normally.
-#[test]
-fn an_undisturbed_run_ends() {
-    let run = disturbed(1.0);
-    assert_eq!(run.ending, Ending::Parted);
-    assert!(run.restitution.unwrap() > 0.98, "{:?}", run.restitution);
 }
 
 /// Velocities of a snapshot belong to its time, not half a step before, as the history's do.
@@ -212,19 +219,7 @@ fn every_step_has_the_energy_of_a_balance() {
         (SmallStrainContact::NodeToSurface, 50.0),
     ] {
         for wall in [false, true] {
-            let sphere =
-                |side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() };
-            let lower = if wall { BodyInput::Wall } else { sphere(Side::Below) };
-            let settings = Settings { contact_stiffness: stiffness, ..settings() };
-            let parts = ModelParts { method, ..ModelParts::default() };
-            let approach = Approach::at(0.01).unwrap();
-            let model = ExplicitBodies::with_parts(
-                [lower, sphere(Side::Above)],
-                approach,
-                &settings,
-                parts,
-            )
-            .unwrap();
+            let model = on_springs(stiffness, method, wall);
             let mut run = Run::new(&model, LONG, &request(SnapshotRequest::none()));
             let mut scratch = Scratch::new(&model);
             let (mut worst, mut largest, mut n_closed): (f64, f64, u32) = (0.0, 0.0, 0);
@@ -244,10 +239,8 @@ fn every_step_has_the_energy_of_a_balance() {
             assert!(worst < 1e-12, "{method:?} {stiffness}: {worst:e}");
             // There is something to be seen: springs that open and close within a step.
             let seen = run.restart_state.ledger.worst_residual;
-            assert!(
-                seen >= largest && (seen > 1e-10 || method == SmallStrainContact::Massless),
-                "{seen:e}"
-            );
+            let is_massless = method == SmallStrainContact::Massless;
+            assert!(seen >= largest && (seen > 1e-10 || is_massless), "{seen:e}");
         }
     }
 }

@@ -1,22 +1,22 @@
 //! Motion without contact: rigid flight, and what leapfrog conserves.
 
-use fem_collision::{Account, Approach, BodyInput};
+use fem_collision::{Account, Approach};
 use fem_mesh::Side;
 
 use crate::body::{BodyState, Clock};
-use crate::model::ExplicitBodies;
+use crate::model::ModelParts;
 use crate::run::{advance, update_forces};
 use crate::state::{Scratch, State};
-use crate::test_support::{accounts, free_sphere, ragged, settings, unit_glass, unit_sphere};
+use crate::test_support::{
+    accounts, free_sphere, glass_sphere, ragged, settings, started, unit_glass, unit_sphere,
+};
 use crate::time::advance_motion;
 
 #[test]
 fn rigid_flight_strains_nothing() {
-    let bodies = [Side::Below, Side::Above]
-        .map(|side| BodyInput::Sphere { mesh: unit_sphere(8.0, side), material: unit_glass() });
+    let bodies = [Side::Below, Side::Above].map(|side| glass_sphere(8.0, side));
     let approach = Approach::new([0.3, -0.7], 1e3).unwrap();
-    let model = ExplicitBodies::new(bodies, approach, &settings()).unwrap();
-    let mut state = State::at_first_touch(&model);
+    let (model, mut state) = started(bodies, approach, &settings(), ModelParts::default());
     // Back from first touch to the start.
     for body in &mut state.bodies {
         body.displacement.fill([0.0; 2]);

@@ -1,33 +1,17 @@
 //! The step and the balance of a boundary without mass.
 
-use fem_collision::{Approach, BodyInput};
-use fem_mesh::Side;
+use fem_collision::Approach;
 use nalgebra::DMatrix;
 
-use super::stability::{both_closed, partly_closed, tangent};
+use super::stability::{both_closed, pair, partly_closed};
 use crate::contact::SmallStrainContact;
 use crate::model::{ExplicitBodies, ModelParts};
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::test_support::{relaxing_glass, settings, sphere, unit_glass};
+use crate::test_support::{relaxing_glass, settings, tangent, unit_glass};
 use fem_contact::SlippingInterface;
 use fem_material::{ActsOn, ElasticModuli, Material};
-
-fn pair(
-    method: SmallStrainContact,
-    sizes: [f64; 2],
-    settings: &Settings,
-    glass: &Material,
-) -> ExplicitBodies {
-    let body = |size: f64, side: Side| {
-        let mesh = sphere(size, 2.0 * size, side);
-        BodyInput::Sphere { mesh, material: glass.clone() }
-    };
-    let bodies = [body(sizes[0], Side::Below), body(sizes[1], Side::Above)];
-    let parts = ModelParts { method, ..ModelParts::default() };
-    ExplicitBodies::with_parts(bodies, Approach::at(1.0).unwrap(), settings, parts).unwrap()
-}
 
 /// Rows (r, y) of the nodes of both bodies that have mass, with its root, and of those without that can
 /// move.
@@ -78,11 +62,14 @@ fn massless_critical_step_is_safe_and_independent_of_springs() {
         for stiffness in [1.0, 100.0, 1e4] {
             let settings =
                 Settings { contact_stiffness: stiffness, step_factor: 1.0, ..settings() };
-            let of = |method| pair(method, sizes, &settings, &unit_glass());
+            let of = |method| {
+                let parts = ModelParts { method, ..ModelParts::default() };
+                pair(sizes, &settings, [&unit_glass(); 2], parts)
+            };
             let (model, springs) =
                 (of(SmallStrainContact::Massless), of(SmallStrainContact::Penalty));
             for state in [both_closed(&springs), partly_closed(&springs)] {
-                let square = largest_square(&tangent(&springs, &state), &model);
+                let square = largest_square(&tangent(&springs, &state, &[0, 1]), &model);
                 let ratio = model.time_step() * square.sqrt() / 2.0;
                 // As of bodies alone.
                 assert!(ratio <= 1.0 && ratio > 0.7, "{stiffness} {sizes:?}: {ratio}");
@@ -98,15 +85,10 @@ fn massless_critical_step_is_safe_and_independent_of_springs() {
 fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) -> f64 {
     let surface_slip = slips_at.is_some();
     let settings = Settings { contact_stiffness: stiffness, ..settings() };
+    let approach = Approach::at(slips_at.unwrap_or(1.0)).unwrap();
     let model = |method, surface_slip| {
-        let body = |k: usize| {
-            let (size, side) = ([0.125, 0.1][k], [Side::Below, Side::Above][k]);
-            let mesh = sphere(size, 2.0 * size, side);
-            BodyInput::Sphere { mesh, material: materials[k].clone() }
-        };
         let parts = ModelParts { method, surface_slip, ..ModelParts::default() };
-        let approach = Approach::at(slips_at.unwrap_or(1.0)).unwrap();
-        ExplicitBodies::with_parts([body(0), body(1)], approach, &settings, parts).unwrap()
+        pair([0.125, 0.1], &settings, materials, parts).approaching(approach)
     };
     let straight = model(SmallStrainContact::Penalty, false).interface().expect("springs").clone();
     let slipping = SlippingInterface::new(straight.clone());

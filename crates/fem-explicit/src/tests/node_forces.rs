@@ -5,29 +5,26 @@ use fem_contact::ContactForces;
 use fem_mesh::Side;
 
 use crate::energy::Ledger;
-use crate::forces::{NodeForce, Weight};
+use crate::forces::Weight;
 use crate::model::{ExplicitBodies, ModelParts};
 use crate::part::Accounts;
 use crate::run::ContactLog;
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::test_support::{settings, unit_glass, unit_sphere};
+use crate::test_support::{far_apart, glass_sphere, settings, started};
 
 const ACCELERATION: f64 = 0.3;
 
 /// A sphere at rest that rises from a wall far below, by two weights of negative gravity, which add up.
 fn rising() -> (ExplicitBodies, State) {
-    let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
-    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let weights = [0.25, 0.75].map(|share| Box::new(Weight::new(-share * ACCELERATION)) as Box<_>);
     let parts = ModelParts { node_forces: [Vec::new(), weights.into()], ..ModelParts::default() };
-    let bodies = [BodyInput::Wall, sphere];
-    let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
-    let mut state = State::at_first_touch(&model);
-    // Back from first touch to the start.
-    state.bodies[0].displacement.fill([0.0; 2]);
-    (model, state)
+    far_apart([BodyInput::Wall, glass_sphere(8.0, Side::Above)], &settings(), parts)
+}
+
+fn upper_has(weight: Weight) -> ModelParts {
+    ModelParts { node_forces: [Vec::new(), vec![Box::new(weight)]], ..ModelParts::default() }
 }
 
 /// u = ½at² and v = at at the steps' times: leapfrog is exact if it starts half a step before. The loss of potential
@@ -73,15 +70,8 @@ fn a_free_motion_under_weight_is_the_closed_form_and_balances() {
 /// A rigid sphere moves in closed form too, with balanced energy and momentum, while the body below is far away.
 #[test]
 fn rigid_sphere_under_weight_has_the_closed_form_motion() {
-    let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Below), material: unit_glass() };
-    let bodies = [sphere, BodyInput::Rigid { radius: 0.5, mass: 3.0 }];
-    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
-    let weight: Box<dyn NodeForce> = Box::new(Weight::new(-ACCELERATION));
-    let parts = ModelParts { node_forces: [Vec::new(), vec![weight]], ..ModelParts::default() };
-    let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
-    let mut state = State::at_first_touch(&model);
-    // Back from first touch to the start.
-    state.bodies[0].displacement.fill([0.0; 2]);
+    let bodies = [glass_sphere(8.0, Side::Below), BodyInput::Rigid { radius: 0.5, mass: 3.0 }];
+    let (model, mut state) = far_apart(bodies, &settings(), upper_has(Weight::new(-ACCELERATION)));
     let mut scratch = Scratch::new(&model);
     let mut ledger = Ledger::new(&model, &state);
     let time_step = model.time_step();
@@ -108,23 +98,14 @@ fn rigid_sphere_under_weight_has_the_closed_form_motion() {
 fn mass_scaling_leaves_weight_and_potential_unchanged() {
     let gravity = 0.7;
     for mass_scaling in [0.0, 0.05] {
-        let sphere =
-            BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
-        let weight: Box<dyn NodeForce> = Box::new(Weight::new(gravity));
-        let parts = ModelParts {
-            node_forces: [Vec::new(), vec![weight]],
-            contact: None,
-            ..ModelParts::default()
-        };
         let settings = Settings { mass_scaling, ..settings() };
+        let bodies = [BodyInput::Wall, glass_sphere(8.0, Side::Above)];
         let approach = Approach::at(1.0).unwrap();
-        let model =
-            ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings, parts)
-                .unwrap();
+        let (model, mut state) =
+            started(bodies, approach, &settings, upper_has(Weight::new(gravity)));
         let body = &model.bodies()[1];
         assert_eq!(body.moved_mass() > 1e-9 * body.mass(), mass_scaling > 0.0);
         let expected = gravity * 4.0 / 3.0 * std::f64::consts::PI;
-        let mut state = State::at_first_touch(&model);
         for place in &mut state.bodies[1].displacement {
             *place = [0.0, 0.3];
         }

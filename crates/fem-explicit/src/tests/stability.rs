@@ -1,55 +1,35 @@
 //! Critical time step, lumped mass and mass scaling.
 
 use fem_collision::{Approach, BodyInput};
+use fem_material::Material;
 use fem_mesh::{HalfDisc, Side, SphereMesh, sphere_volume};
-use nalgebra::DMatrix;
 
 use crate::body::Body;
-use crate::model::ExplicitBodies;
-use crate::run::update_forces;
+use crate::model::{ExplicitBodies, ModelParts};
 use crate::settings::Settings;
-use crate::state::{Scratch, State};
+use crate::state::State;
 use crate::test_support::{
-    assembled, largest_eigenvalue, lumped, moduli, ragged, settings, sphere, unit_glass,
+    assembled, largest_eigenvalue, lumped, moduli, ragged, settings, sphere, tangent, unit_glass,
     unit_sphere,
 };
 
-fn glass_sphere(mesh: SphereMesh) -> BodyInput {
-    BodyInput::Sphere { mesh, material: unit_glass() }
-}
-
 /// Spheres with two elements a block's side, so that few elements reach any size.
-fn pair(sizes: [f64; 2], settings: &Settings) -> ExplicitBodies {
-    let lower = sphere(sizes[0], 2.0 * sizes[0], Side::Below);
-    let upper = sphere(sizes[1], 2.0 * sizes[1], Side::Above);
-    ExplicitBodies::new([lower, upper].map(glass_sphere), Approach::at(1.0).unwrap(), settings)
-        .unwrap()
+pub(super) fn pair(
+    sizes: [f64; 2],
+    settings: &Settings,
+    materials: [&Material; 2],
+    parts: ModelParts,
+) -> ExplicitBodies {
+    let body = |k: usize| {
+        let mesh = sphere(sizes[k], 2.0 * sizes[k], [Side::Below, Side::Above][k]);
+        BodyInput::Sphere { mesh, material: materials[k].clone() }
+    };
+    let approach = Approach::at(1.0).unwrap();
+    ExplicitBodies::with_parts([body(0), body(1)], approach, settings, parts).unwrap()
 }
 
-/// −∂f/∂u of bodies and contact at a state, from the step's own forces, which are linear while no
-/// contact opens or closes.
-pub(super) fn tangent(model: &ExplicitBodies, state: &State) -> DMatrix<f64> {
-    let forces = |state: &State| {
-        let mut scratch = Scratch::new(model);
-        update_forces(model, state, &mut scratch).unwrap();
-        scratch.forces.concat()
-    };
-    let before = forces(state);
-    let n_lower = state.bodies[0].displacement.len();
-    let step = 1e-3;
-    let mut matrix = DMatrix::zeros(2 * before.len(), 2 * before.len());
-    for j in 0..2 * before.len() {
-        let mut moved = state.clone();
-        let node = j / 2;
-        let (side, node) = if node < n_lower { (0, node) } else { (1, node - n_lower) };
-        moved.bodies[side].displacement[node][j % 2] += step;
-        for (i, (f, g)) in
-            before.as_flattened().iter().zip(forces(&moved).as_flattened()).enumerate()
-        {
-            matrix[(i, j)] = (f - g) / step;
-        }
-    }
-    (&matrix + matrix.transpose()) * 0.5
+fn glass_pair(sizes: [f64; 2], settings: &Settings) -> ExplicitBodies {
+    pair(sizes, settings, [&unit_glass(); 2], ModelParts::default())
 }
 
 /// Critical time step of the bound over the true one, 2/ω_max of the assembled body.
@@ -96,11 +76,11 @@ fn critical_time_step_with_closed_contact_is_safe() {
         for sizes in [[0.25, 0.25], [0.25, 0.125], [0.25, 0.05]] {
             let settings =
                 Settings { contact_stiffness: stiffness, step_factor: 1.0, ..settings() };
-            let model = pair(sizes, &settings);
+            let model = glass_pair(sizes, &settings);
             let bodies = model.bodies();
             let both = [&bodies[0], &bodies[1]];
-            let closed = largest_eigenvalue(&tangent(&model, &both_closed(&model)), &both);
-            let some = largest_eigenvalue(&tangent(&model, &partly_closed(&model)), &both);
+            let closed = largest_eigenvalue(&tangent(&model, &both_closed(&model), &[0, 1]), &both);
+            let some = largest_eigenvalue(&tangent(&model, &partly_closed(&model), &[0, 1]), &both);
             let ratio = |value: f64| model.time_step() * value.sqrt() / 2.0;
             // Safe for either pattern. Springs that decide are taken four times for opening
             // and closing, half of the step, beside what the body's bound leaves.
@@ -176,14 +156,14 @@ fn zero_mass_scaling_leaves_step_and_masses_unchanged() {
     let (masses, added) = bound.scale_mass(plain);
     // The node that decides may be filled up by a rounding.
     assert!(added <= 1e-15 * masses.iter().sum::<f64>());
-    let model = pair([0.25, 0.125], &settings());
+    let model = glass_pair([0.25, 0.125], &settings());
     assert_eq!(model.time_step(), model.plain_time_step());
 }
 
 #[test]
 fn model_scales_both_bodies_to_the_common_step() {
     let scaling = Settings { mass_scaling: 1e-2, ..settings() };
-    let model = pair([0.25, 0.1], &scaling);
+    let model = glass_pair([0.25, 0.1], &scaling);
     assert!(model.time_step() > model.plain_time_step());
     let [lower, upper] = model.bodies();
     // The finer body decides and uses its budget up; the coarser needs less.

@@ -2,20 +2,18 @@
 
 use fem_collision::{Account, Collision, HistoryRow};
 use fem_explicit::{
-    BulkViscosity, ExplicitBodies, ModelError, ModelParts, NodeForce, Run, ViscosityCoefficients,
+    BulkViscosity, ExplicitBodies, ModelParts, NodeForce, Run, ViscosityCoefficients,
 };
 
-use crate::common::{Pair, quantities};
+use crate::common::{Pair, assert_foreign, n_nodes, quantities, stored};
 
 fn model(pair: &Pair, coefficients: ViscosityCoefficients) -> ExplicitBodies {
-    let bodies = [pair.sphere(0), pair.sphere(1)];
-    let node_forces = bodies.each_ref().map(|body| {
+    let node_forces = pair.bodies().map(|body| {
         let (mesh, drop) = (body.mesh().unwrap(), pair.approach().speed());
         let part = BulkViscosity::new(mesh, &pair.material(), coefficients, drop).unwrap();
         vec![Box::new(part) as Box<dyn NodeForce>]
     });
-    let parts = ModelParts { node_forces, ..ModelParts::default() };
-    ExplicitBodies::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
+    pair.with_parts(ModelParts { node_forces, ..ModelParts::default() })
 }
 
 fn viscous(pair: &Pair) -> Collision {
@@ -58,8 +56,7 @@ fn bulk_viscosity_reduces_ringing_and_energy_balances() {
     }
     let [without, with] = [&bare, &viscous].map(quantities);
     // What springs leave that open and close between two steps, 9e-6 without viscosity.
-    assert!(with.residual < 2e-5, "{:e}", with.residual);
-    assert!(with.momentum_residual < 1e-12, "{:e}", with.momentum_residual);
+    with.assert_balance(2e-5, 1e-12);
     // It takes what would be vibration, too: the bodies lose less of their motion than it has taken.
     let fall = without.restitution.powi(2) - with.restitution.powi(2);
     assert!(fall > 0.0 && fall < loss(&viscous), "{fall:e} {:e}", loss(&viscous));
@@ -87,23 +84,16 @@ fn bulk_viscosity_loss_of_a_slow_pair_converges_to_zero() {
 fn restart_keeps_bulk_viscosity_and_rejects_other_coefficients() {
     let pair = Pair { velocities: [5.0, 0.0], history_rows: 0, ..fast() };
     let (bare, usual) = (pair.model(), model(&pair, ViscosityCoefficients::default()));
-    let n_bytes = |model: &ExplicitBodies| {
-        let run = Run::new(model, pair.expected(), &pair.request());
-        postcard::to_stdvec(run.restart_state()).unwrap().len()
-    };
-    let n_nodes: usize = bare.bodies().iter().map(|body| body.n_nodes()).sum();
     // Its force, its work and its means, pairs of eight bytes, and the lengths of three fields of each body.
-    assert_eq!(n_bytes(&usual), n_bytes(&bare) + 3 * 16 * n_nodes + 3 * 2);
+    assert_eq!(pair.n_bytes(&usual), pair.n_bytes(&bare) + 3 * 16 * n_nodes(&bare) + 3 * 2);
     let mut run = Run::new(&usual, pair.expected(), &pair.request());
     assert_eq!(run.advance(200), None);
-    let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
-    let saved = || postcard::from_bytes(&bytes).unwrap();
-    let mut resumed = Run::resume(&usual, saved()).unwrap();
+    let saved = stored(run.restart_state());
+    let mut resumed = Run::resume(&usual, saved.clone()).unwrap();
     for run in [&mut run, &mut resumed] {
         assert_eq!(run.advance(200), None);
     }
     assert_eq!(run.restart_state(), resumed.restart_state());
     let linear = ViscosityCoefficients { linear: 0.061, ..ViscosityCoefficients::default() };
-    let other = model(&pair, linear);
-    assert_eq!(Run::resume(&other, saved()).err(), Some(ModelError::ForeignRestartState));
+    assert_foreign("another coefficient", &model(&pair, linear), &saved);
 }

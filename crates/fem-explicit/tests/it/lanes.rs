@@ -1,6 +1,6 @@
 //! Kernels give the same bits on lanes of every kind.
 
-use fem_collision::{Account, Approach, BodyInput, Expectation, OutputRequest};
+use fem_collision::{Account, BodyInput, Expectation, OutputRequest};
 use fem_explicit::{
     BulkViscosity, ExplicitBodies, ModelParts, NodeForce, Run, Settings, ViscosityCoefficients,
     limit_lanes,
@@ -10,7 +10,7 @@ use fem_material::{
     ActsOn, FlowPoint, FlowRule, Hardening, Material, PronySeries, PronyTerm, RateFactor,
 };
 
-use crate::common::{settings, unit_glass, unit_sphere};
+use crate::common::{falling, settings, unit_glass, unit_sphere, upper_at_finite_strain};
 
 /// A unit sphere that hits a wall at a tenth of the shear wave speed, with relaxation terms of these weights.
 fn model(weights: &[f64], acts_on: ActsOn, parts: ModelParts, viscosity: bool) -> ExplicitBodies {
@@ -28,8 +28,7 @@ fn model_of(material: Material, parts: ModelParts, viscosity: bool) -> ExplicitB
     let parts = ModelParts { node_forces: [Vec::new(), Vec::from_iter(forces)], ..parts };
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
     let settings = Settings { mass_scaling: 0.0, ..settings(5.0, 0.9) };
-    let approach = Approach::new([0.0, -0.1], 0.0).unwrap();
-    ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
+    falling(bodies, 0.1, &settings, parts)
 }
 
 /// Hertz' contact time and approach.
@@ -52,11 +51,8 @@ fn lanes_of_every_kind_give_the_same_bits() {
     let laws = [None].into_iter().chain(HyperelasticLaw::ALL.map(Some));
     for (law, weights) in laws.flat_map(|law| [&[][..], &[0.3], &[0.3, 0.5]].map(|w| (law, w))) {
         for (acts_on, within) in [(ActsOn::All, None), (ActsOn::Shear, Some(0.4))] {
-            let parts = ModelParts {
-                finite_strain: [None, law],
-                finite_strain_within: law.and(within),
-                ..ModelParts::default()
-            };
+            let finite_strain_within = law.and(within);
+            let parts = ModelParts { finite_strain_within, ..upper_at_finite_strain(law) };
             let model = model(weights, acts_on, parts, within.is_some());
             let plain = state_on(0, &model);
             for widest in 1..=2 {
@@ -78,11 +74,8 @@ fn lanes_of_every_kind_give_the_same_bits_where_elements_flow() {
         (Hardening::Swift { yield_strength, strain: 0.002, exponent: 0.2 }, rate, Some(0.6)),
         (Hardening::Table(table), rate, None),
     ] {
-        let parts = ModelParts {
-            finite_strain: [None, Some(HyperelasticLaw::Hencky)],
-            finite_strain_within: within,
-            ..ModelParts::default()
-        };
+        let hencky = upper_at_finite_strain(Some(HyperelasticLaw::Hencky));
+        let parts = ModelParts { finite_strain_within: within, ..hencky };
         let rule = FlowRule::new(hardening.clone(), rate).unwrap();
         let model = model_of(unit_glass(None).with_flow(rule).unwrap(), parts, false);
         let plain = state_on(0, &model);
@@ -101,7 +94,7 @@ fn lanes_of_every_kind_give_the_same_bits_where_elements_flow() {
 fn single_relaxation_term_gives_the_bits_of_several() {
     for law in HyperelasticLaw::ALL {
         let history = |weights: &[f64]| {
-            let parts = ModelParts { finite_strain: [None, Some(law)], ..ModelParts::default() };
+            let parts = upper_at_finite_strain(Some(law));
             let model = model(weights, ActsOn::All, parts, false);
             let mut run = Run::new(&model, EXPECTED, &OutputRequest::history());
             assert_eq!(run.advance(50), None);

@@ -45,8 +45,7 @@ fn quantities_are_those_of_a_run_with_history() {
 /// Runs that stop, and one that takes so much longer than expected that instants are given up.
 #[test]
 fn quantities_of_stopped_and_overlong_runs_need_no_history() {
-    let outgrown = Pair { candidate_radius: 0.15e-3, ..Pair::small() };
-    let endless = Pair { max_time: 30e-6, ..Pair::small() };
+    let (outgrown, endless) = (Pair::outgrown(), Pair::endless());
     for (pair, contact_time) in
         [(&outgrown, HERTZ_TIME), (&endless, HERTZ_TIME), (&Pair::small(), HERTZ_TIME / 1e3)]
     {

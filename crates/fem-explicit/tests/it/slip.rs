@@ -1,15 +1,14 @@
 //! Collisions of unlike bodies whose surfaces slip on each other.
 
 use fem_collision::BodyInput;
-use fem_explicit::{ExplicitBodies, ModelError, ModelParts, Run, Settings, SmallStrainContact};
-use fem_material::{ElasticModuli, Material};
+use fem_explicit::{ExplicitBodies, ModelParts, Settings, SmallStrainContact};
+use fem_material::Material;
 
-use crate::common::{Pair, quantities};
+use crate::common::{Pair, assert_foreign, elastic, meeting, quantities};
 
 /// A soft sphere below the glass one.
 fn soft() -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(3e9, 0.2).unwrap();
-    Material::new(1200.0, moduli, None).unwrap()
+    elastic(3e9, 0.2, 1200.0)
 }
 
 /// Five elements a contact radius.
@@ -25,13 +24,22 @@ fn pair() -> Pair {
 }
 
 fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> ExplicitBodies {
-    let mut bodies = [pair.sphere(0), pair.sphere(1)];
+    on_springs(pair, material, surface_slip, 60e9)
+}
+
+fn on_springs(
+    pair: &Pair,
+    material: Option<Material>,
+    surface_slip: bool,
+    contact_stiffness: f64,
+) -> ExplicitBodies {
+    let mut bodies = pair.bodies();
     if let (BodyInput::Sphere { material: own, .. }, Some(material)) = (&mut bodies[0], material) {
         *own = material;
     }
     let parts = ModelParts { surface_slip, method: pair.method, ..ModelParts::default() };
-    let settings = Settings { contact_stiffness: 60e9, ..pair.settings() };
-    ExplicitBodies::with_parts(bodies, pair.approach(), &settings, parts).unwrap()
+    let settings = Settings { contact_stiffness, ..pair.settings() };
+    meeting(bodies, pair.approach(), &settings, parts)
 }
 
 /// In first order a spring in series with Hertz' contact (`fem-laws`, `surface_slip.rs`): with a of the
@@ -61,8 +69,7 @@ fn slip_is_of_first_order(pair: &Pair) {
     assert!((time + 0.240 * share).abs() < allowed, "{time:e} {share:e}");
     for found in [&with, &without] {
         // As of collisions without slip.
-        assert!(found.residual < 2e-6, "{:e}", found.residual);
-        assert!(found.momentum_residual < 1e-12, "{:e}", found.momentum_residual);
+        found.assert_balance(2e-6, 1e-12);
     }
     // 4e-6: the forces have the energy of the springs.
     assert!((with.restitution - without.restitution).abs() < 3e-5);
@@ -92,13 +99,7 @@ fn like_bodies_hardly_slip() {
 fn massless_slipping_boundary_is_stable_at_any_stiffness() {
     let pair = Pair { method: SmallStrainContact::Massless, ..pair() };
     let run = |factor: f64| {
-        let mut bodies = [pair.sphere(0), pair.sphere(1)];
-        if let BodyInput::Sphere { material, .. } = &mut bodies[0] {
-            *material = soft();
-        }
-        let parts = ModelParts { surface_slip: true, method: pair.method, ..ModelParts::default() };
-        let settings = Settings { contact_stiffness: factor * 3e9, ..pair.settings() };
-        let model = ExplicitBodies::with_parts(bodies, pair.approach(), &settings, parts).unwrap();
+        let model = on_springs(&pair, Some(soft()), true, factor * 3e9);
         (model.time_step(), pair.run_model(&model))
     };
     let (step, usual) = run(1.0);
@@ -108,8 +109,7 @@ fn massless_slipping_boundary_is_stable_at_any_stiffness() {
         let noise = run.force_scatter.unwrap() / run.peak_force.unwrap();
         assert!(noise < 1e-3, "{factor}: {noise:e}");
         let found = quantities(run);
-        assert!(found.residual < 1e-6, "{factor}: {:e}", found.residual);
-        assert!(found.momentum_residual < 1e-12, "{factor}: {:e}", found.momentum_residual);
+        found.assert_balance(1e-6, 1e-12);
         assert!(found.restitution < 1.0, "{factor}: {}", found.restitution);
     }
     assert_eq!(run(1e3).0.to_bits(), step.to_bits());
@@ -119,15 +119,11 @@ fn massless_slipping_boundary_is_stable_at_any_stiffness() {
 #[test]
 fn slipping_run_resumes_to_the_bit() {
     for method in [SmallStrainContact::Penalty, SmallStrainContact::Massless] {
-        is_the_same_in_pieces(&Pair { element_size: 120e-6, method, ..pair() });
+        let pair = Pair { element_size: 120e-6, method, ..pair() };
+        let [slipping, plain] = [true, false].map(|slips| model(&pair, Some(soft()), slips));
+        let run = pair.run_model(&slipping);
+        assert_eq!(pair.in_pieces(&slipping, 4001), run);
+        assert_ne!(pair.run_model(&plain), run);
+        assert_foreign("with slip", &slipping, &pair.start(&plain));
     }
-}
-
-fn is_the_same_in_pieces(pair: &Pair) {
-    let (slipping, plain) = (model(pair, Some(soft()), true), model(pair, Some(soft()), false));
-    let run = pair.run_model(&slipping);
-    assert_eq!(pair.in_pieces(&slipping, 4001), run);
-    assert_ne!(pair.run_model(&plain), run);
-    let saved = Run::new(&plain, pair.expected(), &pair.request()).restart_state().clone();
-    assert_eq!(Run::resume(&slipping, saved).err(), Some(ModelError::ForeignRestartState));
 }

@@ -11,6 +11,8 @@ use fem_laws::{
 };
 use fem_material::FlowStress;
 
+use crate::common::{Map, values};
+
 const MAP: &str = include_str!("../../../../validation/data/flow_map.csv");
 const PAGE: &str = include_str!("../../../../docs/metals.md");
 /// The quantities in the order of the columns of the map.
@@ -59,15 +61,12 @@ fn scene(row: &Row) -> (Pair, [f64; 2]) {
 }
 
 fn rows() -> Vec<Row> {
-    let mut lines = MAP.lines();
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
-    let rows = lines.map(|line| {
-        let cells: Vec<&str> = line.split(',').collect();
-        let number = |name: &str| cells[column(name)].parse::<f64>().unwrap();
+    let map = Map::read(MAP);
+    let rows = map.rows.iter().map(|row| {
+        let number = |name: &str| map.number(row, name);
         let each = |end: &str| QUANTITIES.map(|name| number(&format!("{name}{end}")));
         Row {
-            scene: cells[column("scene")].to_string(),
+            scene: map.cell(row, "scene").to_string(),
             nu: number("nu"),
             hardening: number("hardening_over_modulus") * MODULUS,
             swift_strain: number("swift_strain"),
@@ -109,14 +108,8 @@ impl Row {
         let contact = self.contact();
         let Contact { pair, hertz, .. } = &contact;
         let impact = LawImpact::new(pair, law(self, &contact)).impact(self.speed).unwrap();
-        let found = [
-            impact.restitution,
-            impact.contact_time.unwrap() / hertz.contact_time(),
-            impact.peak_force / hertz.peak_force(),
-            impact.max_approach / hertz.max_approach(),
-            impact.max_contact_radius / hertz.max_contact_radius(),
-        ];
-        std::array::from_fn(|k| found[k] / self.found[k] - 1.0)
+        let (found, hertz) = (values(&impact), ImpactQuantities::from(hertz).in_order());
+        std::array::from_fn(|k| found[k] / hertz[k] / self.found[k] - 1.0)
     }
 
     fn flow(&self, contact: &Contact) -> FlowStress {

@@ -1,6 +1,6 @@
 //! Contacts of a ball with a weight: closed forms and an integration of its own.
 
-use crate::direct::{Direct, direct};
+use crate::direct::direct;
 use fem_laws::laws::{hertz, linear};
 use fem_laws::{EndRule, HertzImpact, ImpactPath, LawImpact, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, Material};
@@ -75,8 +75,8 @@ fn relaxing_ball_under_gravity_equals_direct_integration() {
     let pair = pair_of(&material);
     let relaxation = PairRelaxation::new(None, Some(&material)).unwrap();
     for speed in [2.0 * slow(&pair), 6.0 * slow(&pair)] {
-        let Direct(fine) = direct(&pair, &relaxation, None, speed, 4000, G);
-        let Direct(coarse) = direct(&pair, &relaxation, None, speed, 2000, G);
+        let [fine, coarse] =
+            [4000, 2000].map(|n_steps| direct(&pair, &relaxation, None, speed, n_steps, G));
         let found = ting(&material).impact(speed).unwrap();
         let time = found.contact_time.unwrap();
         for (k, found) in [found.restitution, time, found.peak_force].into_iter().enumerate() {

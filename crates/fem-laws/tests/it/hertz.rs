@@ -163,46 +163,40 @@ fn history_starts_as_its_series() {
     }
 }
 
-#[test]
-fn open_hertz_contact_has_no_force_or_pressure() {
-    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
-    for open in [-1e-3, -1e-12, 0.0] {
-        assert_eq!(impact.force(open), 0.0);
-        assert_eq!(impact.pressure(open).peak_pressure, 0.0);
-        assert_eq!(impact.pressure(open).contact_radius, 0.0);
-    }
-}
-
+/// An open contact has no force and no pressure.
 #[test]
 fn bodies_fly_freely_before_and_after() {
     let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
-    let before = impact.at(-2.0);
-    assert_eq!((before.approach, before.approach_rate, before.force), (-1.0, 0.5, 0.0));
-    let start = impact.at(0.0);
-    assert_eq!((start.approach, start.approach_rate, start.force), (0.0, 0.5, 0.0));
-    let end = impact.at(impact.contact_time());
-    assert_eq!((end.approach, end.approach_rate, end.force), (0.0, -0.5, 0.0));
-    let after = impact.at(impact.contact_time() + 2.0);
-    assert!((after.approach + 1.0).abs() < 1e-15);
-    assert_eq!((after.approach_rate, after.force), (-0.5, 0.0));
+    for open in [-1e-3, -1e-12, 0.0] {
+        let pressure = impact.pressure(open);
+        assert_eq!(impact.force(open), 0.0);
+        assert_eq!([pressure.peak_pressure, pressure.contact_radius], [0.0; 2]);
+    }
+    let end = impact.contact_time();
+    for (time, approach, rate) in
+        [(-2.0, -1.0, 0.5), (0.0, 0.0, 0.5), (end, 0.0, -0.5), (end + 2.0, -1.0, -0.5)]
+    {
+        let found = impact.at(time);
+        // Rounding of the time after the contact.
+        assert!((found.approach - approach).abs() < if time > end { 1e-15 } else { 1e-300 });
+        assert_eq!((found.approach_rate, found.force), (rate, 0.0), "{time}");
+    }
 }
 
 #[test]
 fn impossible_speeds_are_refused() {
     let pair = glass_pair();
     for value in [0.0, -0.5, f64::INFINITY] {
-        assert_eq!(
-            HertzImpact::new(&pair, value),
-            Err(LawError::NotPositive { quantity: "approach_speed", value })
-        );
+        let refused = LawError::NotPositive { quantity: "approach_speed", value };
+        assert_eq!(HertzImpact::new(&pair, value), Err(refused));
     }
     assert!(HertzImpact::new(&pair, f64::NAN).is_err());
     // Results beyond the range of f64.
     assert!(HertzImpact::new(&pair, 1e300).is_err());
     assert!(HertzImpact::new(&pair, 1e-300).is_err());
     let needle = Partner::Sphere { radius: 1e-300, mass: 1.0, plane_strain_modulus: 1e200 };
-    assert_eq!(
-        HertzImpact::new(&Pair::new(needle, Partner::Wall).unwrap(), 1.0),
-        Err(LawError::NotPositive { quantity: "hertz peak_pressure", value: f64::INFINITY })
-    );
+    let value = f64::INFINITY;
+    let refused = LawError::NotPositive { quantity: "hertz peak_pressure", value };
+    let needle = Pair::new(needle, Partner::Wall).unwrap();
+    assert_eq!(HertzImpact::new(&needle, 1.0), Err(refused));
 }

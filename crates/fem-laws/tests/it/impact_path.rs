@@ -1,11 +1,5 @@
 //! A collision between its instants, and the energies along it.
 
-#![allow(
-    clippy::disallowed_methods,
-    clippy::disallowed_macros,
-    reason = "what was measured, for who asks for a test's output"
-)]
-
 use fem_laws::laws::{self, ContactLaw};
 use fem_laws::{FiniteSize, HertzImpact, Impact, ImpactPath, LawImpact, Ting};
 use fem_material::{ActsOn, Material};
@@ -55,7 +49,6 @@ fn energy_is_balanced_at_and_between_the_instants() {
         ("two terms", ting(&[(0.5, 2708.0), (0.3, 1e6)], true)),
     ] {
         let (at, between) = imbalance(&impact, None);
-        println!("{name}: {} instants, {at:e}, {between:e}", impact.history.len());
         assert!(at < 1e-7, "{name}: {at:e}");
         assert!(between < 2e-5, "{name}: {between:e}");
     }
@@ -67,7 +60,6 @@ fn energy_is_balanced_at_and_between_the_instants() {
     ] {
         let impact = LawImpact::new(&pair(), law).impact(SPEED).unwrap();
         let (at, between) = imbalance(&impact, Some(&law));
-        println!("{law:?}: {} instants, {at:e}, {between:e}", impact.history.len());
         assert!(at < 1e-7, "{law:?}: {at:e}");
         assert!(between < 2e-5, "{law:?}: {between:e}");
         assert!(impact.history.is_sorted_by(|a, b| a.dissipated <= b.dissipated));

@@ -92,46 +92,29 @@ fn accurate_up_to_the_limits_of_poissons_ratio() {
 #[test]
 fn impossible_moduli_are_refused_by_name() {
     let bad_positive = |quantity, value| MaterialError::NotPositive { quantity, value };
+    let count = |given: &[&'static str]| MaterialError::ModuliCount { given: given.to_vec() };
+    let implied = |youngs_modulus, other, implied, limit| MaterialError::ImpliedPoissonsRatio {
+        youngs_modulus,
+        other,
+        other_value: 1.0,
+        implied,
+        limit,
+    };
+    let infinity = f64::INFINITY;
     let cases = [
-        (input(None, None, None, None), MaterialError::ModuliCount { given: vec![] }),
-        (
-            input(Some(1.0), None, None, None),
-            MaterialError::ModuliCount { given: vec!["youngs_modulus"] },
-        ),
+        (input(None, None, None, None), count(&[])),
+        (input(Some(1.0), None, None, None), count(&["youngs_modulus"])),
         (
             input(Some(1.0), Some(1.0), None, Some(0.3)),
-            MaterialError::ModuliCount {
-                given: vec!["youngs_modulus", "shear_modulus", "poissons_ratio"],
-            },
+            count(&["youngs_modulus", "shear_modulus", "poissons_ratio"]),
         ),
         (input(Some(0.0), None, None, Some(0.3)), bad_positive("youngs_modulus", 0.0)),
         (input(None, Some(-1.0), None, Some(0.3)), bad_positive("shear_modulus", -1.0)),
-        (
-            input(None, Some(1.0), Some(f64::INFINITY), None),
-            bad_positive("bulk_modulus", f64::INFINITY),
-        ),
+        (input(None, Some(1.0), Some(infinity), None), bad_positive("bulk_modulus", infinity)),
         (input(Some(1.0), None, None, Some(0.5)), MaterialError::PoissonsRatio { value: 0.5 }),
         (input(None, Some(1.0), None, Some(-1.0)), MaterialError::PoissonsRatio { value: -1.0 }),
-        (
-            input(Some(4.0), Some(1.0), None, None),
-            MaterialError::ImpliedPoissonsRatio {
-                youngs_modulus: 4.0,
-                other: "shear_modulus",
-                other_value: 1.0,
-                implied: 1.0,
-                limit: 3.0,
-            },
-        ),
-        (
-            input(Some(9.0), None, Some(1.0), None),
-            MaterialError::ImpliedPoissonsRatio {
-                youngs_modulus: 9.0,
-                other: "bulk_modulus",
-                other_value: 1.0,
-                implied: -1.0,
-                limit: 9.0,
-            },
-        ),
+        (input(Some(4.0), Some(1.0), None, None), implied(4.0, "shear_modulus", 1.0, 3.0)),
+        (input(Some(9.0), None, Some(1.0), None), implied(9.0, "bulk_modulus", -1.0, 9.0)),
     ];
     for (two, expected) in cases {
         assert_eq!(ElasticModuli::from_two(two), Err(expected));

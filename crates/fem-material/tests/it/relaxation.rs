@@ -172,17 +172,15 @@ fn three_parameter_solid_without_kelvin_spring_is_maxwells() {
 
 #[test]
 fn impossible_series_are_refused() {
-    let refused = |terms: &[(f64, f64)]| series(terms, ActsOn::All).unwrap_err();
-    assert_eq!(refused(&[]), MaterialError::NoRelaxationTerms);
-    assert_eq!(
-        refused(&[(0.1, 1.0), (-0.1, 1.0)]),
-        MaterialError::RelaxationWeight { index: 1, value: -0.1 }
-    );
-    assert_eq!(refused(&[(0.1, 0.0)]), MaterialError::RelaxationTime { index: 0, value: 0.0 });
-    assert_eq!(
-        refused(&[(0.75, 1.0), (0.5, 2.0)]),
-        MaterialError::RelaxationWeightSum { sum: 1.25 }
-    );
+    let negative = MaterialError::RelaxationWeight { index: 1, value: -0.1 };
+    for (terms, expected) in [
+        (&[][..], MaterialError::NoRelaxationTerms),
+        (&[(0.1, 1.0), (-0.1, 1.0)], negative),
+        (&[(0.1, 0.0)], MaterialError::RelaxationTime { index: 0, value: 0.0 }),
+        (&[(0.75, 1.0), (0.5, 2.0)], MaterialError::RelaxationWeightSum { sum: 1.25 }),
+    ] {
+        assert_eq!(series(terms, ActsOn::All), Err(expected), "{terms:?}");
+    }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert!(series(&[(bad, 1.0)], ActsOn::All).is_err());
         assert!(series(&[(0.1, bad)], ActsOn::All).is_err());

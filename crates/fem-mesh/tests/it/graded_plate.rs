@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use fem_mesh::{GradedPlate, MeshError, Quality, Side};
 
+use crate::meshed_volume;
+
 fn plate(thickness: f64) -> GradedPlate {
     GradedPlate {
         thickness,
@@ -91,14 +93,7 @@ fn quads_fill_the_plate() {
     for thickness in THICKNESSES {
         let description = plate(thickness);
         let mesh = description.build().unwrap();
-        let mut volume = 0.0;
-        for element in 0..mesh.quads().len() {
-            let corners = mesh.corners(element);
-            for a in 0..4 {
-                let ([r0, y0], [r1, y1]) = (corners[a], corners[(a + 1) % 4]);
-                volume += PI / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (y1 - y0);
-            }
-        }
+        let volume = meshed_volume(&mesh);
         let expected = PI * description.radius.powi(2) * thickness;
         assert!((volume / expected - 1.0).abs() < 1e-9, "{thickness}: {}", volume / expected);
     }

@@ -1,8 +1,8 @@
 //! The graded half disc: geometry, grading, volume, extremes of size.
 
-use fem_mesh::{
-    HalfDisc, MeshError, Quality, Side, SphereMesh, cap_volume, segment_measures, sphere_volume,
-};
+use fem_mesh::{HalfDisc, Quality, Side, SphereMesh, cap_volume, segment_measures, sphere_volume};
+
+use crate::meshed_volume;
 
 fn glass(size: f64) -> HalfDisc {
     HalfDisc {
@@ -14,28 +14,29 @@ fn glass(size: f64) -> HalfDisc {
     }
 }
 
-/// Volume of the straight-sided quads by the shoelace form of ∫ 2π r dA.
-fn meshed_volume(mesh: &SphereMesh) -> f64 {
-    let mut volume = 0.0;
-    for element in 0..mesh.quads().len() {
-        let corners = mesh.corners(element);
-        for a in 0..4 {
-            let ([r0, y0], [r1, y1]) = (corners[a], corners[(a + 1) % 4]);
-            volume += std::f64::consts::PI / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (y1 - y0);
-        }
+/// Volume of the quads and of the caps over their chords, over that of the sphere.
+fn volume_with_caps(mesh: &SphereMesh) -> f64 {
+    let cap = |pair: &[u32]| {
+        let [p, q] = [pair[0], pair[1]].map(|node| mesh.nodes()[node as usize]);
+        cap_volume(p, q, mesh.radius())
+    };
+    let caps: f64 = mesh.surface().windows(2).map(cap).sum();
+    (meshed_volume(mesh) + caps) / sphere_volume(mesh.radius())
+}
+
+fn assert_on_arc(mesh: &SphereMesh) {
+    for &node in mesh.surface() {
+        let [r, y] = mesh.nodes()[node as usize];
+        // Rounding of a few operations on numbers of the radius' size.
+        assert!((r.hypot(y - mesh.radius()) / mesh.radius() - 1.0).abs() < 1e-14);
     }
-    volume
 }
 
 #[test]
 fn boundary_nodes_lie_on_the_true_arc_and_the_axis() {
     let mesh = glass(30e-6).build().unwrap();
     let radius = mesh.radius();
-    for &node in mesh.surface() {
-        let [r, y] = mesh.nodes()[node as usize];
-        // Rounding of a few operations on numbers of the radius' size.
-        assert!((r.hypot(y - radius) / radius - 1.0).abs() < 1e-14);
-    }
+    assert_on_arc(&mesh);
     assert!(mesh.axis().iter().all(|&node| mesh.nodes()[node as usize][0] == 0.0));
     let n_axis = mesh.nodes().iter().filter(|p| p[0] == 0.0).count();
     assert_eq!(n_axis, mesh.axis().len());
@@ -70,19 +71,10 @@ fn quads_and_caps_make_the_exact_sphere() {
     for side in [Side::Above, Side::Below] {
         let mesh = glass(60e-6).build().unwrap().on_side(side);
         assert_eq!(mesh.side(), side);
-        let caps: f64 = mesh
-            .surface()
-            .windows(2)
-            .map(|pair| {
-                let [p, q] = [pair[0], pair[1]].map(|node| mesh.nodes()[node as usize]);
-                cap_volume(p, q, mesh.radius())
-            })
-            .sum();
         let exact = sphere_volume(mesh.radius());
-        let quads = meshed_volume(&mesh);
-        assert!(quads < exact * 0.9999, "the chords cut nothing off");
+        assert!(meshed_volume(&mesh) < exact * 0.9999, "the chords cut nothing off");
         // Rounding of a sum over the elements.
-        assert!(((quads + caps) / exact - 1.0).abs() < 1e-12);
+        assert!((volume_with_caps(&mesh) - 1.0).abs() < 1e-12);
     }
 }
 
@@ -104,40 +96,28 @@ fn sphere_meshes_of_all_sizes_have_good_quality() {
         for fraction in [0.25, 0.05, 1e-3, 1e-7] {
             let size = radius * fraction;
             let refined_radius = (12.0 * size).min(radius / 2.0);
-            let mesh = HalfDisc {
-                radius,
-                contact_element_size: size,
-                refined_radius,
-                growth: None,
-                edge: None,
-            };
-            let mesh = mesh.build().unwrap();
-            let quality = Quality::of(&mesh);
-            assert!(quality.min_scaled_jacobian > 0.5, "{radius} {fraction} {quality:?}");
-            assert!(quality.max_aspect_ratio < 3.0, "{radius} {fraction} {quality:?}");
             // The map shrinks cells away from the pole by up to (1 + 1/4)².
-            assert!(quality.min_edge / size > 0.35, "{radius} {fraction} {quality:?}");
+            assert_quality(radius, size, refined_radius, [3.0, 0.35]);
+        }
+    }
+    // A block for a contact as wide as the sphere.
+    for share in [0.5, 0.7, 0.9, 1.0_f64] {
+        for n in [2.0, 8.0, 25.0] {
+            let size = (share * 1e-2 / n).min(1e-2 / 4.0);
+            // The map shrinks cells away from the pole by up to (1 + 1/2)², those of the far block more.
+            assert_quality(1e-2, size, share * 1e-2, [4.0, 0.1]);
         }
     }
 }
 
-/// A block for a contact as wide as the sphere.
-#[test]
-fn block_meshes_of_all_sizes_have_good_quality() {
-    for share in [0.5, 0.7, 0.9, 1.0_f64] {
-        for n in [2.0, 8.0, 25.0] {
-            let (radius, refined_radius) = (1e-2_f64, share * 1e-2);
-            let contact_element_size = (refined_radius / n).min(radius / 4.0);
-            let mesh =
-                HalfDisc { radius, contact_element_size, refined_radius, growth: None, edge: None };
-            let mesh = mesh.build().unwrap();
-            let quality = Quality::of(&mesh);
-            assert!(quality.min_scaled_jacobian > 0.5, "{share} {n} {quality:?}");
-            assert!(quality.max_aspect_ratio < 4.0, "{share} {n} {quality:?}");
-            // The map shrinks cells away from the pole by up to (1 + 1/2)², those of the far block more.
-            assert!(quality.min_edge / contact_element_size > 0.1, "{share} {n} {quality:?}");
-        }
-    }
+/// Asserts that a mesh has no larger aspect ratio and, over the element size, no shorter edge than these.
+#[track_caller]
+fn assert_quality(radius: f64, size: f64, refined_radius: f64, [aspect, edge]: [f64; 2]) {
+    let disc = HalfDisc { radius, refined_radius, ..glass(size) };
+    let quality = Quality::of(&disc.build().unwrap());
+    assert!(quality.min_scaled_jacobian > 0.5, "{disc:?} {quality:?}");
+    assert!(quality.max_aspect_ratio < aspect, "{disc:?} {quality:?}");
+    assert!(quality.min_edge / size > edge, "{disc:?} {quality:?}");
 }
 
 /// Twice as many columns, of which those at the edge are the narrowest, and the same exact sphere.
@@ -157,20 +137,8 @@ fn columns_are_narrow_at_the_edge_of_a_contact() {
         assert!((2.7..3.1).contains(&(widest / narrowest)), "{share}: {widths:?}");
         let at = widths.iter().position(|width| *width == narrowest).unwrap();
         assert!((place(at)[0] / (share * 0.3e-3) - 1.0).abs() < 0.1, "{share}: {widths:?}");
-        for &node in mesh.surface() {
-            let [r, y] = mesh.nodes()[node as usize];
-            assert!((r.hypot(y - mesh.radius()) / mesh.radius() - 1.0).abs() < 1e-14);
-        }
-        let caps: f64 = mesh
-            .surface()
-            .windows(2)
-            .map(|pair| {
-                let [p, q] = [pair[0], pair[1]].map(|node| mesh.nodes()[node as usize]);
-                cap_volume(p, q, mesh.radius())
-            })
-            .sum();
-        let exact = sphere_volume(mesh.radius());
-        assert!(((meshed_volume(&mesh) + caps) / exact - 1.0).abs() < 1e-12);
+        assert_on_arc(&mesh);
+        assert!((volume_with_caps(&mesh) - 1.0).abs() < 1e-12);
         let quality = Quality::of(&mesh);
         assert!(quality.min_scaled_jacobian > least, "{share}: {quality:?}");
         // Rows 3.3 times as high as columns are wide on average, times 2.7 at the edge.
@@ -192,17 +160,18 @@ fn faster_growth_takes_fewer_elements() {
 #[test]
 fn impossible_parameters_are_refused() {
     let sphere = glass(30e-6);
-    let error = |mesh: HalfDisc| mesh.build().unwrap_err();
-    assert!(matches!(error(HalfDisc { radius: -1.0, ..sphere }), MeshError::Length { .. }));
-    assert!(matches!(error(HalfDisc { radius: f64::NAN, ..sphere }), MeshError::Length { .. }));
-    assert!(matches!(error(glass(0.0)), MeshError::Length { .. }));
-    assert!(matches!(error(glass(3e-3)), MeshError::ElementSize { .. }));
-    assert!(matches!(
-        error(HalfDisc { refined_radius: 11.2e-3, ..sphere }),
-        MeshError::RefinedRadius { .. }
-    ));
-    assert!(matches!(error(HalfDisc { growth: Some(1.0), ..sphere }), MeshError::Growth(_)));
-    assert!(matches!(error(glass(1e-12)), MeshError::TooLarge(_)));
+    for (disc, expected) in [
+        (HalfDisc { radius: -1.0, ..sphere }, "Length"),
+        (HalfDisc { radius: f64::NAN, ..sphere }, "Length"),
+        (glass(0.0), "Length"),
+        (glass(3e-3), "ElementSize"),
+        (HalfDisc { refined_radius: 11.2e-3, ..sphere }, "RefinedRadius"),
+        (HalfDisc { growth: Some(1.0), ..sphere }, "Growth"),
+        (glass(1e-12), "TooLarge"),
+    ] {
+        let error = format!("{:?}", disc.build().unwrap_err());
+        assert!(error.starts_with(expected), "{disc:?}: {error} is no {expected}");
+    }
 }
 
 #[test]
@@ -228,30 +197,29 @@ fn imported_meshes_are_repaired_or_rejected() {
     let clockwise: Vec<_> = quads.iter().map(|&[a, b, c, d]| [d, c, b, a]).collect();
     let repaired = import(&rounded, &clockwise).unwrap();
     assert_eq!(repaired.surface(), mesh.surface());
-    for &node in repaired.surface() {
-        let [r, y] = repaired.nodes()[node as usize];
-        assert!((r.hypot(y - mesh.radius()) / mesh.radius() - 1.0).abs() < 1e-14);
-    }
+    assert_on_arc(&repaired);
 
-    let message =
-        |nodes: &[[f64; 2]], quads: &[[u32; 4]]| import(nodes, quads).unwrap_err().to_string();
-    assert!(message(&nodes, &[]).contains("no quadrilaterals"));
-    assert!(message(&nodes, &quads[..10]).contains("belongs to no element"));
-    assert!(message(&nodes[..10], &quads).contains("the mesh has 10 nodes"));
+    let check = |nodes: &[[f64; 2]], quads: &[[u32; 4]], words: &str| {
+        let message = import(nodes, quads).unwrap_err().to_string();
+        assert!(message.contains(words), "{message} lacks {words}");
+    };
+    check(&nodes, &[], "no quadrilaterals");
+    check(&nodes, &quads[..10], "belongs to no element");
+    check(&nodes[..10], &quads, "the mesh has 10 nodes");
     let shifted: Vec<_> = nodes.iter().map(|p| [p[0], p[1] + 1e-3]).collect();
-    assert!(message(&shifted, &quads).contains("contact pole must be at y = 0"));
+    check(&shifted, &quads, "contact pole must be at y = 0");
     let scaled: Vec<_> = nodes.iter().map(|p| p.map(|x| 1.01 * x)).collect();
-    assert!(message(&scaled, &quads).contains("the sphere's diameter"));
+    check(&scaled, &quads, "the sphere's diameter");
     let mut dented = nodes.clone();
     dented[mesh.surface()[20] as usize][0] *= 0.99;
-    assert!(message(&dented, &quads).contains("from the sphere's centre"));
+    check(&dented, &quads, "from the sphere's centre");
     let mut inverted = nodes.clone();
     inverted[(quads[0][2]) as usize] = [25e-6, 25e-6];
-    assert!(message(&inverted, &quads).contains("degenerate or inverted"));
+    check(&inverted, &quads, "degenerate or inverted");
     let mut not_finite = nodes.clone();
     not_finite[7][1] = f64::NAN;
-    assert!(message(&not_finite, &quads).contains("node 7"));
+    check(&not_finite, &quads, "node 7");
     let mut doubled = quads.clone();
     doubled.push(quads[3]);
-    assert!(message(&nodes, &doubled).contains("two elements on the same side"));
+    check(&nodes, &doubled, "two elements on the same side");
 }

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use fem_mesh::{MeshError, Quality, QuarterDisc, Side};
 
+use crate::meshed_volume;
+
 fn block(far_radius: f64) -> QuarterDisc {
     QuarterDisc {
         far_radius,
@@ -57,15 +59,7 @@ fn element_quality_is_independent_of_the_far_radius() {
 fn quads_fill_the_half_ball() {
     let missing = |size: f64| {
         let mesh = QuarterDisc { contact_element_size: size, ..block(0.01) }.build().unwrap();
-        let mut volume = 0.0;
-        for element in 0..mesh.quads().len() {
-            let corners = mesh.corners(element);
-            for a in 0..4 {
-                let ([r0, y0], [r1, y1]) = (corners[a], corners[(a + 1) % 4]);
-                volume += PI / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (y1 - y0);
-            }
-        }
-        1.0 - volume / (2.0 / 3.0 * PI * 0.01_f64.powi(3))
+        1.0 - meshed_volume(&mesh) / (2.0 / 3.0 * PI * 0.01_f64.powi(3))
     };
     let (coarse, fine) = (missing(30e-6), missing(15e-6));
     assert!(fine > 0.0 && (coarse / fine - 4.0).abs() < 0.1, "{coarse:e} {fine:e}");

@@ -7,7 +7,7 @@ use fem_vtk::{Error, VtuFile};
 const POINTS: &str = "0 0 0 1 0 0 1 1 0 0 1 0";
 
 /// A square in ascii with replaceable parts.
-fn square(piece: &str, points: &str, connectivity: &str, offsets: &str, types: &str) -> String {
+pub fn square(piece: &str, points: &str, connectivity: &str, offsets: &str, types: &str) -> String {
     format!(
         r#"<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece {piece}>
         <Points><DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">{points}</DataArray></Points>
@@ -40,10 +40,8 @@ fn refuse(text: &str, words: &str) {
 #[test]
 fn unmodified_square_is_read() {
     let bytes = ascii(POINTS, "0 1 2 3", "4", "9").into_bytes();
-    assert_eq!(
-        VtuFile::from_bytes("square.vtu", bytes).unwrap().quad_mesh().unwrap().quads,
-        [[0, 1, 2, 3]]
-    );
+    let mesh = VtuFile::from_bytes("square.vtu", bytes).unwrap().quad_mesh().unwrap();
+    assert_eq!(mesh.quads, [[0, 1, 2, 3]]);
 }
 
 /// Every wrong number of the mesh: points, connectivity, offsets and types, and what the message says.
@@ -130,31 +128,31 @@ fn encoded(attributes: &str, points: &str) -> String {
 }
 
 const WIDE: &str = "header_type=\"UInt64\"";
-const ZLIB: &str = "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
+pub const ZLIB: &str = "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
 
-fn header(numbers: &[u64]) -> Vec<u8> {
+pub fn header_bytes(numbers: &[u64]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }
 
 #[test]
 fn reader_rejects_headers_that_claim_too_many_bytes() {
     for n_bytes in [1, 96, 1 << 40, u64::MAX] {
-        refuse(&binary(WIDE, &header(&[n_bytes])), "truncated");
+        refuse(&binary(WIDE, &header_bytes(&[n_bytes])), "truncated");
     }
     refuse(&binary(WIDE, &[1, 2, 3]), "truncated");
     refuse(&binary(WIDE, &[]), "truncated");
 
     for n_blocks in [1, 1 << 20, 1 << 60, u64::MAX] {
-        refuse(&binary(ZLIB, &header(&[n_blocks, 32768, 0])), "truncated");
+        refuse(&binary(ZLIB, &header_bytes(&[n_blocks, 32768, 0])), "truncated");
     }
-    refuse(&binary(ZLIB, &header(&[1, 32768, 96, u64::MAX])), "truncated");
-    refuse(&binary(ZLIB, &header(&[2, 32768, 96, u64::MAX, u64::MAX])), "truncated");
-    refuse(&binary(ZLIB, &header(&[0, 0, 0])), "found 0 values");
+    refuse(&binary(ZLIB, &header_bytes(&[1, 32768, 96, u64::MAX])), "truncated");
+    refuse(&binary(ZLIB, &header_bytes(&[2, 32768, 96, u64::MAX, u64::MAX])), "truncated");
+    refuse(&binary(ZLIB, &header_bytes(&[0, 0, 0])), "found 0 values");
 }
 
 /// As VTK encodes it: header and blocks each padded.
 fn zlib_points(numbers: &[u64], blocks: &[u8]) -> String {
-    encoded(ZLIB, &(STANDARD.encode(header(numbers)) + &STANDARD.encode(blocks)))
+    encoded(ZLIB, &(STANDARD.encode(header_bytes(numbers)) + &STANDARD.encode(blocks)))
 }
 
 #[test]
@@ -188,7 +186,7 @@ fn broken_base64_and_offsets() {
     let short = binary(WIDE, &[0; 7]);
     assert!(short.contains("AAAAAAAAAA=="), "seven bytes fill the characters of a header");
     refuse(&short, "truncated");
-    let base64 = binary(WIDE, &header(&[96]));
+    let base64 = binary(WIDE, &header_bytes(&[96]));
     refuse(&base64.replacen("YAAA", "Y!AA", 1), "broken base64");
     let appended =
         ascii("", "0 1 2 3", "4", "9").replacen("\"ascii\"", "\"appended\" offset=\"9\"", 1);

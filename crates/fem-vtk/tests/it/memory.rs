@@ -8,6 +8,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use fem_vtk::VtuFile;
 
+use crate::hostile_files::{ZLIB, header_bytes, square};
+
 thread_local! {
     /// Bytes in use, less those that another thread has allocated, and their maximum.
     static NOW: Cell<i64> = const { Cell::new(0) };
@@ -34,14 +36,10 @@ static ALLOCATOR: Counting = Counting;
 
 /// Peak bytes while the mesh of a file with these points is refused.
 fn peak_of_refusal(n_points: usize, header: &[u64], blocks: &[u8]) -> i64 {
-    let header: Vec<u8> = header.iter().flat_map(|number| number.to_le_bytes()).collect();
-    let points = STANDARD.encode(header) + &STANDARD.encode(blocks);
-    let text = format!(
-        r#"<VTKFile type="UnstructuredGrid" header_type="UInt64" compressor="vtkZLibDataCompressor"><UnstructuredGrid>
-        <Piece NumberOfPoints="{n_points}" NumberOfCells="{n_points}"><Points>
-        <DataArray type="Float64" Name="Points" NumberOfComponents="3" format="binary">{points}</DataArray>
-        </Points></Piece></UnstructuredGrid></VTKFile>"#
-    );
+    let points = STANDARD.encode(header_bytes(header)) + &STANDARD.encode(blocks);
+    let piece = format!("NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_points}\"");
+    let text = square(&piece, &points, "", "", "").replacen("ascii", "binary", 1);
+    let text = text.replace("<VTKFile", &format!("<VTKFile {ZLIB}"));
     let before = NOW.get();
     PEAK.set(before);
     let file = VtuFile::from_bytes("lie.vtu", text.into_bytes()).unwrap();

@@ -3,7 +3,8 @@
 #![allow(dead_code, reason = "each test file uses its share")]
 
 use fem_contact::{ContactForces, ContactInterface, Surface};
-use fem_mesh::{HalfDisc, Side, SphereMesh};
+use fem_mesh::{HalfDisc, Side, SphereMesh, segment_measures};
+use nalgebra::DMatrix;
 
 /// Displacements or forces, one pair (r, y) a node.
 pub type Field = Vec<[f64; 2]>;
@@ -60,24 +61,59 @@ pub fn assert_balance(total: &ContactForces, f: &[Field; 2]) {
     assert!((upper - total.force).abs() < 1e-13 * total.force, "{upper} {total:?}");
 }
 
-/// Asserts that the force on every node is −∂energy/∂displacement.
-pub fn assert_gradient(interface: &ContactInterface, u: &[Field; 2]) {
-    let (total, f) = forces(interface, u);
-    let step = 1e-10;
-    for side in 0..2 {
-        for node in interface.candidate_nodes(side) {
-            let energy = |change: f64| {
-                let mut moved = u.clone();
-                moved[side][node as usize][1] += change;
-                forces(interface, &moved).0.energy
-            };
-            let slope = (energy(step) - energy(-step)) / (2.0 * step);
-            let error = (f[side][node as usize][1] + slope).abs();
-            // The energy is quadratic, so the difference is exact but for rounding,
-            // 1e-15 · energy / step.
-            assert!(error < 1e-14 * total.energy / step, "{error:e} {total:?}");
-        }
+/// A degree of freedom: side, node and axis (r, y).
+pub type Freedom = (usize, usize, usize);
+
+/// The freedoms along y of the nodes that may touch.
+pub fn axial(interface: &ContactInterface) -> Vec<Freedom> {
+    let of_side = |side| interface.candidate_nodes(side).map(move |node| (side, node as usize, 1));
+    (0..2).flat_map(of_side).collect()
+}
+
+/// Asserts that forces are −∂energy/∂displacement, by central differences of a step, to a tolerance of the energy over
+/// the step, and returns the largest ones along r and y.
+pub fn assert_gradient(
+    forces: impl Fn(&[Field; 2]) -> (ContactForces, [Field; 2]),
+    u: &[Field; 2],
+    freedoms: impl IntoIterator<Item = Freedom>,
+    [step, tolerance]: [f64; 2],
+) -> [f64; 2] {
+    let (total, f) = forces(u);
+    let mut largest = [0.0f64; 2];
+    for (side, node, axis) in freedoms {
+        let energy = |change: f64| {
+            let mut moved = u.clone();
+            moved[side][node][axis] += change;
+            forces(&moved).0.energy
+        };
+        let slope = (energy(step) - energy(-step)) / (2.0 * step);
+        let error = (f[side][node][axis] + slope).abs();
+        assert!(
+            error < tolerance * total.energy / step,
+            "{side} {node} {axis}: {error:e} {total:?}"
+        );
+        largest[axis] = largest[axis].max(slope.abs());
     }
+    largest
+}
+
+/// Returns the largest eigenvalue of D^−1/2 K D^−1/2, D the bounds and K symmetric but for a share of its largest entry.
+pub fn largest_quotient(bound: &[f64], asymmetry: f64, column: impl Fn(usize) -> Vec<f64>) -> f64 {
+    let columns: Vec<_> = (0..bound.len()).map(column).collect();
+    let matrix = DMatrix::from_fn(bound.len(), bound.len(), |i, j| columns[j][i]);
+    let found = (&matrix - matrix.transpose()).amax() / matrix.amax();
+    assert!(found < asymmetry, "{found:e}");
+    let scaled = DMatrix::from_fn(bound.len(), bound.len(), |i, j| {
+        0.5 * (matrix[(i, j)] + matrix[(j, i)]) / (bound[i] * bound[j]).sqrt()
+    });
+    scaled.symmetric_eigenvalues().max()
+}
+
+/// Returns ∫N 2πr dr over the plane for the k-th node of a surface.
+pub fn tributary_area(mesh: &SphereMesh, k: usize) -> f64 {
+    let place = |k: usize| [mesh.nodes()[mesh.surface()[k] as usize][0], 0.0];
+    let inner = if k > 0 { segment_measures(place(k - 1), place(k))[1] } else { 0.0 };
+    inner + segment_measures(place(k), place(k + 1))[0]
 }
 
 /// Displacements without pattern that close the contact of the glass pair in places.
@@ -88,4 +124,15 @@ pub fn ragged(meshes: &[SphereMesh; 2], depth: f64) -> [Field; 2] {
         let value = |k: usize| sign * depth * (0.2 + 2.0 * noise(2 * k + side));
         (0..n).map(|k| [depth * noise(k), value(k)]).collect()
     })
+}
+
+/// Asserts that a contact says at forty depths of no pattern that it is closed where forces say so, and counts these.
+/// The innermost point closes at 4e-9 m.
+pub fn n_closed(closed_and_total: impl Fn(f64) -> (bool, ContactForces)) -> usize {
+    let is_closed = |sample| {
+        let (closed, total) = closed_and_total(4e-8 * noise(sample));
+        assert_eq!(closed, total.n_closed > 0, "{sample}");
+        closed
+    };
+    (0..40).filter(|&sample| is_closed(sample)).count()
 }

@@ -4,7 +4,9 @@ use fem_contact::{ContactInterface, Surface};
 use fem_mesh::Side;
 
 use super::Scene;
-use crate::common::{Field, STIFFNESS, assert_balance, glass_pair, interface, sphere};
+use crate::common::{
+    Field, STIFFNESS, assert_balance, assert_gradient, glass_pair, interface, sphere,
+};
 
 const SIZES: [[f64; 2]; 4] = [[30e-6, 30e-6], [30e-6, 37e-6], [37e-6, 30e-6], [15e-6, 200e-6]];
 
@@ -28,26 +30,18 @@ fn moved_contact_forces_balance_and_derive_from_the_energy() {
         let u = scene.ragged(along_r, 20e-6);
         let (total, f) = scene.forces(&u);
         assert!(total.n_closed >= 5 && total.fold.is_none(), "{total:?}");
-        let step = 1e-11;
-        let mut worst = [0.0f64; 2];
-        for side in 0..2 {
-            for node in scene.interface.candidate_nodes(side) {
-                let is_bound = scene.n_nodes[side] == 1 || u[side][node as usize][0] == 0.0;
-                for axis in usize::from(is_bound)..2 {
-                    let energy = |change: f64| {
-                        let mut moved = u.clone();
-                        moved[side][node as usize][axis] += change;
-                        scene.forces(&moved).0.energy
-                    };
-                    let slope = (energy(step) - energy(-step)) / (2.0 * step);
-                    let error = (f[side][node as usize][axis] + slope).abs();
-                    worst[axis] = worst[axis].max(error * step / total.energy);
-                }
-            }
-        }
+        let of_side = |side: usize| {
+            let nodes = scene.interface.candidate_nodes(side).map(|node| node as usize);
+            let (scene, u) = (&scene, &u);
+            nodes.flat_map(move |node| {
+                let is_bound = scene.n_nodes[side] == 1 || u[side][node][0] == 0.0;
+                (usize::from(is_bound)..2).map(move |axis| (side, node, axis))
+            })
+        };
         // Rounding of an energy of some ten terms. A missing term would be seen: the smallest terms of the
         // forces, by the ends of intervals, are some 1e-13 of this.
-        assert!(worst.iter().all(|error| *error < 2e-15), "{worst:?}");
+        let freedoms = (0..2).flat_map(of_side);
+        assert_gradient(|u| scene.forces(u), &u, freedoms, [1e-11, 2e-15]);
         // Forces along y are opposite to rounding, and a rigid body has none along r.
         assert_balance(&total, &f);
         assert!(scene.n_nodes[0] > 1 || f[0][0][0] == 0.0);

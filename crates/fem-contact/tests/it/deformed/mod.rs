@@ -9,7 +9,7 @@ mod search;
 use fem_contact::{ContactForces, DeformedInterface, Surface};
 use fem_mesh::SphereMesh;
 
-use crate::common::{Field, STIFFNESS, noise};
+use crate::common::{Field, Freedom, STIFFNESS, noise};
 
 /// Two surfaces and the numbers of nodes of their bodies.
 pub struct Scene {
@@ -65,4 +65,24 @@ impl Scene {
 
 pub fn sum(field: &Field, axis: usize) -> f64 {
     field.iter().map(|value| value[axis]).sum()
+}
+
+/// Returns the freedoms of bodies, of which the axis stays the axis, and their bounds.
+pub fn bounded(
+    scene: &Scene,
+    sides: impl IntoIterator<Item = usize>,
+    add: impl Fn(usize, &mut [f64]),
+) -> (Vec<f64>, Vec<Freedom>) {
+    let (mut bound, mut freedoms) = (Vec::new(), Vec::new());
+    for side in sides {
+        let mut of_side = vec![0.0; scene.n_nodes[side]];
+        add(side, &mut of_side);
+        for (k, node) in scene.interface.candidate_nodes(side).enumerate() {
+            for axis in usize::from(k == 0)..2 {
+                freedoms.push((side, node as usize, axis));
+                bound.push(of_side[node as usize]);
+            }
+        }
+    }
+    (bound, freedoms)
 }

@@ -68,6 +68,12 @@ impl Patch {
         self.nodes[node][0] == 0.0
     }
 
+    /// The degrees of freedom that are not held on the axis.
+    pub fn free(&self) -> Vec<usize> {
+        let is_free = |i: &usize| i % 2 == 1 || !self.on_axis(i / 2);
+        (0..2 * self.nodes.len()).filter(is_free).collect()
+    }
+
     pub fn assemble(&self, element: impl Fn(&[[f64; 2]; 4]) -> ElementMatrix) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(2 * self.nodes.len(), 2 * self.nodes.len());
         for (e, quad) in self.quads.iter().enumerate() {

@@ -1,18 +1,18 @@
 //! Tests of a front in a column, of the critical step with damping, and of the work in the ledger.
 
-use fem_collision::{Approach, BodyInput};
+use fem_collision::BodyInput;
 use fem_element::{ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient};
 use fem_mesh::Side;
 use nalgebra::{DMatrix, SVector};
 
 use super::*;
 use crate::energy::Ledger;
-use crate::model::{ExplicitBodies, ModelParts};
+use crate::model::ModelParts;
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
 use crate::test_support::{
-    assembled, lumped, moduli, ragged, settings, unit_glass, unit_sphere, vector,
+    assembled, far_apart, lumped, moduli, ragged, settings, unit_glass, unit_sphere, vector,
 };
 
 const NONE: ViscosityCoefficients = ViscosityCoefficients { linear: 0.0, quadratic: 0.0 };
@@ -91,15 +91,9 @@ impl Column {
             self.v[node][1] += self.time_step * forces[node][1] / self.mass[node];
         }
         self.u.iter_mut().zip(&self.v).for_each(|(u, v)| u[1] += self.time_step * v[1]);
-        let Self { u, v, mass, history, time_step, .. } = self;
-        let motion = Motion {
-            time: 0.0,
-            time_step: *time_step,
-            displacement: u,
-            velocity: v,
-            nodal_mass: mass,
-        };
-        self.viscosity.advance(&motion, history);
+        let mut history = std::mem::take(&mut self.history);
+        self.viscosity.advance(&self.motion(), &mut history);
+        self.history = history;
         self.n_steps += 1;
     }
 
@@ -262,17 +256,12 @@ fn the_work_of_viscosity_is_what_the_motion_loses() {
         let viscosity = BulkViscosity::new(&mesh, &glass, USUAL, drop).unwrap();
         // Thirty wave speeds at most: uncapped, the first of the two would be unstable.
         let velocities = ragged(&mesh, 3).iter().map(|v| v.map(|v| 100.0 * v)).collect();
-        let sphere = BodyInput::Sphere { mesh, material: glass };
+        let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material: glass }];
         let node_forces = [Vec::new(), vec![Box::new(viscosity) as Box<dyn NodeForce>]];
         let parts = ModelParts { node_forces, ..ModelParts::default() };
-        let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
         let settings = Settings { step_factor: 1.0, ..settings() };
-        let model =
-            ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings, parts)
-                .unwrap();
-        let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
-        // Back from first touch, where the wall is now.
-        state.bodies[0].displacement.fill([0.0; 2]);
+        let (model, mut state) = far_apart(bodies, &settings, parts);
+        let mut scratch = Scratch::new(&model);
         state.bodies[1].velocity = velocities;
         let mut ledger = Ledger::new(&model, &state);
         let mut balance = |state: &State, scratch: &mut Scratch| {

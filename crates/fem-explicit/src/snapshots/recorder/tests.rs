@@ -6,18 +6,36 @@ use fem_collision::{Approach, BodyInput};
 use fem_mesh::Side;
 
 use super::*;
-use crate::test_support::{settings, unit_glass, unit_sphere};
+use crate::test_support::{glass_sphere, settings};
 
 const CONTACT_TIME: f64 = 2.0;
 
 fn model() -> ExplicitBodies {
-    let mesh = unit_sphere(4.0, Side::Above);
-    let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material: unit_glass() }];
+    let bodies = [BodyInput::Wall, glass_sphere(4.0, Side::Above)];
     ExplicitBodies::new(bodies, Approach::new([1.0, 0.0], 0.5).unwrap(), &settings()).unwrap()
 }
 
+/// An instant of a contact.
+const CONTACT: Instant = Instant {
+    approach: 1.0,
+    approach_rate: 1.0,
+    is_closed: true,
+    is_first_contact: false,
+    is_last_contact: false,
+    has_separated: false,
+    stays_together: false,
+};
+
 fn expectation(approach: f64, contact_time: f64) -> Expectation {
     Expectation { contact_time, approach }
+}
+
+fn of_contact() -> SnapshotRequest {
+    SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec())
+}
+
+fn labels(snapshots: &[Snapshot]) -> Vec<SnapshotInstant> {
+    snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect()
 }
 
 /// A contact from first touch, approach `peak` sin(πt/T), in so many steps; the recorder at its
@@ -42,8 +60,7 @@ fn record(
             is_closed: step > 0 && step < n_steps,
             is_first_contact: step == 1,
             is_last_contact: step == n_steps - 1,
-            has_separated: false,
-            stays_together: false,
+            ..CONTACT
         };
         recorder.observe(model, &state, &mut scratch, now);
         most = most.max(recorder.kept.len() + scratch.pool.len());
@@ -54,7 +71,7 @@ fn record(
 #[test]
 fn recorder_finds_half_the_maximum_approach_for_any_estimate() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
+    let request = of_contact();
     for estimate in [0.1, 0.9, 1.0, 1.3, 10.0] {
         let peak = 0.37;
         let (recorder, most) = record(&request, &model, peak, peak * estimate, 5000);
@@ -62,8 +79,7 @@ fn recorder_finds_half_the_maximum_approach_for_any_estimate() {
         assert!(most <= 26, "{most} states");
         let (snapshots, missing) = recorder.finish();
         assert!(missing.is_empty(), "{missing:?}");
-        let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-        assert_eq!(labels, SnapshotInstant::OF_CONTACT);
+        assert_eq!(labels(&snapshots), SnapshotInstant::OF_CONTACT);
         assert!(snapshots.windows(2).all(|pair| pair[0].time < pair[1].time));
         let approach = |k: usize| snapshots[k].approach / peak;
         // A rung is half a ratio away at most, and a step of π/5000 late.
@@ -73,32 +89,20 @@ fn recorder_finds_half_the_maximum_approach_for_any_estimate() {
     }
 }
 
-/// A step that still approaches.
-fn approaching(approach: f64, approach_rate: f64) -> Instant {
-    Instant {
-        approach,
-        approach_rate,
-        is_closed: true,
-        is_first_contact: false,
-        is_last_contact: false,
-        has_separated: false,
-        stays_together: false,
-    }
-}
-
 /// While the bodies are as fast as at first touch, no candidate is taken below a quarter of the expected approach;
 /// once they have slowed down, all are. Either way the ladder has the same rungs.
 #[test]
 fn recorder_takes_no_early_states_of_unslowed_bodies() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
+    let request = of_contact();
     let state = State::at_first_touch(&model);
     let mut scratch = Scratch::new(&model);
     let speed = model.approach().speed();
     let mut kept_of = |rate: f64, upto: f64| {
         let mut recorder = Recorder::new(&request, &model, expectation(1.0, CONTACT_TIME));
         for k in 1..=1000 {
-            let now = approaching(upto * f64::from(k) / 1000.0, rate);
+            let approach = upto * f64::from(k) / 1000.0;
+            let now = Instant { approach, approach_rate: rate, ..CONTACT };
             recorder.observe(&model, &state, &mut scratch, now);
         }
         recorder.kept.iter().map(|rung| rung.approach).collect::<Vec<_>>()
@@ -115,7 +119,7 @@ fn recorder_takes_no_early_states_of_unslowed_bodies() {
 #[test]
 fn missing_snapshot_labels_are_reported() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
+    let request = of_contact();
     let expected = expectation(1.0, CONTACT_TIME);
     let (snapshots, missing) = Recorder::new(&request, &model, expected).finish();
     assert!(snapshots.is_empty());
@@ -128,8 +132,7 @@ fn missing_snapshot_labels_are_reported() {
         SnapshotRequest::Labels(vec![SnapshotInstant::LastContact, SnapshotInstant::Maximum]);
     let (recorder, _) = record(&some, &model, 1.0, 1.0, 100);
     let (snapshots, missing) = recorder.finish();
-    let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-    assert_eq!(labels, [SnapshotInstant::Maximum, SnapshotInstant::LastContact]);
+    assert_eq!(labels(&snapshots), [SnapshotInstant::Maximum, SnapshotInstant::LastContact]);
     assert!(missing.is_empty());
 }
 
@@ -137,23 +140,15 @@ fn missing_snapshot_labels_are_reported() {
 #[test]
 fn bodies_that_stay_together_have_no_last_contact() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
+    let request = of_contact();
     let mut recorder = Recorder::new(&request, &model, expectation(1.0, CONTACT_TIME));
     let state = State::at_first_touch(&model);
     // It would open in the next step.
-    let now = Instant {
-        approach: 1.0,
-        approach_rate: 1e-9,
-        is_closed: true,
-        is_first_contact: false,
-        is_last_contact: true,
-        has_separated: false,
-        stays_together: true,
-    };
+    let now =
+        Instant { approach_rate: 1e-9, is_last_contact: true, stays_together: true, ..CONTACT };
     recorder.observe(&model, &state, &mut Scratch::new(&model), now);
     let (snapshots, missing) = recorder.finish();
-    let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-    assert_eq!(labels, [SnapshotInstant::Maximum]);
+    assert_eq!(labels(&snapshots), [SnapshotInstant::Maximum]);
     assert!(missing.contains(&did_not_occur(SnapshotInstant::LastContact)), "{missing:?}");
 }
 
@@ -219,15 +214,7 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
     let mut scratch = Scratch::new(&model);
     for step in 0..=5000 {
         state.time = model.approach().first_touch() + CONTACT_TIME * f64::from(step) / 5000.0;
-        let now = Instant {
-            approach: 1.0,
-            approach_rate: 1.0,
-            is_closed: true,
-            is_first_contact: step == 0,
-            is_last_contact: step == 5000,
-            has_separated: false,
-            stays_together: false,
-        };
+        let now = Instant { is_first_contact: step == 0, is_last_contact: step == 5000, ..CONTACT };
         recorder.observe(&model, &state, &mut scratch, now);
         assert!(recorder.kept.len() <= n_kept(5));
         assert!(recorder.kept.len() + scratch.pool.len() <= n_kept(5) + 1);

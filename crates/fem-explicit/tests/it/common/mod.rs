@@ -2,15 +2,50 @@
 
 #![allow(dead_code, reason = "each test file uses its share")]
 
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
+use fem_collision::{
+    Approach, BodyInput, Collision, Expectation, Monitor, OutputRequest, Progress, SnapshotRequest,
+};
 use fem_explicit::{
-    ExplicitBodies, ModelParts, Run, RunState, Settings, SmallStrainContact, collide,
+    Contact, DeformedContact, ExplicitBodies, ModelError, ModelParts, Run, RunState, Settings,
+    SmallStrainContact, collide,
 };
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, FlowRule, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
+
+/// Hertz' impact of a sphere on a plane.
+pub struct Hertz {
+    pub time: f64,
+    pub approach: f64,
+    pub force: f64,
+    pub contact_radius: f64,
+}
+
+impl Hertz {
+    /// Takes radius (m), reduced mass (kg), contact modulus (Pa) and speed (m/s).
+    pub fn new(radius: f64, mass: f64, modulus: f64, speed: f64) -> Self {
+        let stiffness = 4.0 / 3.0 * modulus * radius.sqrt();
+        let approach = (1.25 * mass * speed * speed / stiffness).powf(0.4);
+        Self {
+            time: 2.943_275 * approach / speed,
+            approach,
+            force: stiffness * approach.powf(1.5),
+            contact_radius: (radius * approach).sqrt(),
+        }
+    }
+
+    pub fn expected(&self) -> Expectation {
+        Expectation { contact_time: self.time, approach: self.approach }
+    }
+}
+
+/// Returns the mass (kg) of a sphere of a radius (m) and a density (kg/m³).
+pub fn sphere_mass(radius: f64, density: f64) -> f64 {
+    4.0 / 3.0 * PI * radius.powi(3) * density
+}
 
 /// Hertz' contact time and approach at 0.5 m/s.
 pub const HERTZ_TIME: f64 = 63.235e-6;
@@ -81,6 +116,16 @@ impl Pair {
         Self { element_size: 110e-6, candidate_radius: 0.45e-3, ..Self::default() }
     }
 
+    /// One whose contact outgrows the region in which it is looked for.
+    pub fn outgrown() -> Self {
+        Self { candidate_radius: 0.15e-3, ..Self::small() }
+    }
+
+    /// One that is ended before it parts.
+    pub fn endless() -> Self {
+        Self { max_time: 30e-6, ..Self::small() }
+    }
+
     pub fn material(&self) -> Material {
         let [length, time, mass] = self.units;
         let pressure = mass / (length * time * time);
@@ -107,6 +152,17 @@ impl Pair {
         BodyInput::Sphere { mesh, material: self.material() }
     }
 
+    pub fn bodies(&self) -> [BodyInput; 2] {
+        [0, 1].map(|body| self.sphere(body))
+    }
+
+    /// Both spheres, or a wall in the place of one.
+    pub fn on_wall(&self, wall: usize) -> [BodyInput; 2] {
+        let mut bodies = self.bodies();
+        bodies[wall] = BodyInput::Wall;
+        bodies
+    }
+
     pub fn approach(&self) -> Approach {
         let [length, time, _] = self.units;
         let velocities = self.velocities.map(|velocity| velocity * length / time);
@@ -122,13 +178,17 @@ impl Pair {
     }
 
     pub fn model(&self) -> ExplicitBodies {
-        self.model_of([self.sphere(0), self.sphere(1)])
+        self.model_of(self.bodies())
+    }
+
+    pub fn with_parts(&self, parts: ModelParts) -> ExplicitBodies {
+        meeting(self.bodies(), self.approach(), &self.settings(), parts)
     }
 
     pub fn model_of(&self, bodies: [BodyInput; 2]) -> ExplicitBodies {
         let finite_strain = bodies.each_ref().map(|body| body.mesh().and(self.law));
         let parts = ModelParts { finite_strain, method: self.method, ..ModelParts::default() };
-        ExplicitBodies::with_parts(bodies, self.approach(), &self.settings(), parts).unwrap()
+        meeting(bodies, self.approach(), &self.settings(), parts)
     }
 
     pub fn expected(&self) -> Expectation {
@@ -153,6 +213,16 @@ impl Pair {
         collide(model, self.expected(), &self.request(), &mut ())
     }
 
+    /// Returns the restart state before the first step.
+    pub fn start(&self, model: &ExplicitBodies) -> RunState {
+        Run::new(model, self.expected(), &self.request()).restart_state().clone()
+    }
+
+    /// Returns the size of the restart state before the first step, in bytes.
+    pub fn n_bytes(&self, model: &ExplicitBodies) -> usize {
+        postcard::to_stdvec(&self.start(model)).unwrap().len()
+    }
+
     /// Runs in pieces of some steps, each from the stored restart state of the one before.
     pub fn in_pieces(&self, model: &ExplicitBodies, n_steps: u64) -> Collision {
         let mut run = Run::new(model, self.expected(), &self.request());
@@ -170,6 +240,67 @@ pub fn stored(state: &RunState) -> RunState {
     read
 }
 
+/// Stores the progress of a run, and stops it once it has come to a step.
+pub struct Watcher {
+    pub stop_at: u64,
+    pub seen: Vec<Progress>,
+}
+
+impl Monitor for Watcher {
+    fn report(&mut self, progress: Progress) -> bool {
+        self.seen.push(progress);
+        progress.step < self.stop_at
+    }
+}
+
+/// Asserts that a restart state fits no model like this.
+pub fn assert_foreign(what: &str, model: &ExplicitBodies, state: &RunState) {
+    let refused = Run::resume(model, stored(state)).err();
+    assert_eq!(refused, Some(ModelError::ForeignRestartState), "{what}");
+}
+
+/// Returns the number of nodes of both bodies.
+pub fn n_nodes(model: &ExplicitBodies) -> usize {
+    model.bodies().iter().map(|body| body.n_nodes()).sum()
+}
+
+pub fn meeting(
+    bodies: [BodyInput; 2],
+    approach: Approach,
+    settings: &Settings,
+    parts: ModelParts,
+) -> ExplicitBodies {
+    ExplicitBodies::with_parts(bodies, approach, settings, parts).unwrap()
+}
+
+/// Returns the model of a body that falls onto a wall, or onto another body that is at rest.
+pub fn falling(
+    bodies: [BodyInput; 2],
+    speed: f64,
+    settings: &Settings,
+    parts: ModelParts,
+) -> ExplicitBodies {
+    meeting(bodies, Approach::new([0.0, -speed], 0.0).unwrap(), settings, parts)
+}
+
+/// The upper body at finite strain.
+pub fn upper_at_finite_strain(law: Option<HyperelasticLaw>) -> ModelParts {
+    ModelParts { finite_strain: [None, law], ..ModelParts::default() }
+}
+
+/// Returns the model of a pair with contact between the deformed surfaces.
+pub fn on_deformed_surfaces(
+    bodies: [BodyInput; 2],
+    approach: Approach,
+    settings: &Settings,
+    finite_strain: [Option<HyperelasticLaw>; 2],
+) -> ExplicitBodies {
+    let contact = DeformedContact::new(&bodies, approach.gap(), settings).unwrap();
+    let contact = Some(Box::new(contact) as Box<dyn Contact>);
+    let parts = ModelParts { finite_strain, contact, ..ModelParts::default() };
+    meeting(bodies, approach, settings, parts)
+}
+
 /// The quantities of a run that has ended, which are all there.
 pub struct Quantities {
     pub restitution: f64,
@@ -182,6 +313,15 @@ pub struct Quantities {
     pub momentum_residual: f64,
     pub velocity_after: [f64; 2],
     pub steps: u64,
+}
+
+impl Quantities {
+    /// Asserts that energy and momentum balance to shares of the initial ones.
+    #[track_caller]
+    pub fn assert_balance(&self, energy: f64, momentum: f64) {
+        assert!(self.residual < energy, "energy: {:e}", self.residual);
+        assert!(self.momentum_residual < momentum, "momentum: {:e}", self.momentum_residual);
+    }
 }
 
 pub fn quantities(run: &Collision) -> Quantities {

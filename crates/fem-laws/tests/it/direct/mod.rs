@@ -2,15 +2,12 @@
 
 use fem_laws::{HertzImpact, Pair, PairRelaxation};
 
-/// Results of the direct method: restitution, contact time, peak force, pressure, approach.
-pub struct Direct(pub [f64; 5]);
-
 /// m(t) of the finite size: δ = u + m∘d(u^(3/2)) with m = m[0] − m[1] ln u, in metres.
 pub type Added<'a> = &'a dyn Fn(f64) -> [f64; 2];
 
 /// Ting's integrals as sums over equal steps with the kernel at midpoints, no series, no
 /// recursion, t₁ by adding up increments from now backwards; velocity Verlet for the motion, with gravity
-/// along the approach, m/s².
+/// along the approach, m/s². Returns restitution, contact time, peak force, pressure, approach.
 pub fn direct(
     pair: &Pair,
     relaxation: &PairRelaxation,
@@ -18,7 +15,7 @@ pub fn direct(
     speed: f64,
     n_steps: usize,
     gravity: f64,
-) -> Direct {
+) -> [f64; 5] {
     let hertz = HertzImpact::new(pair, speed).unwrap();
     let dt = hertz.contact_time() / n_steps as f64;
     let midpoints = || (0..4 * n_steps).map(|i| (i as f64 + 0.5) * dt);
@@ -49,7 +46,7 @@ pub fn direct(
                 if last == 0 {
                     // Contact ended within the step; the force there is nearly 0.
                     let time = n as f64 * dt;
-                    return Direct([-rate / speed, time, peak_force, peak_pressure, highest]);
+                    return [-rate / speed, time, peak_force, peak_pressure, highest];
                 }
                 let added = kernel[n - last] * (approach[last] - approach[last - 1]);
                 last -= 1;
@@ -65,12 +62,10 @@ pub fn direct(
             let increment = |j: usize| power(approach[j + 1]) - power(approach[j]);
             let whole: f64 = (0..last).map(|j| kernel[n - 1 - j] * increment(j)).sum();
             // Of the step with t₁ the part before it.
-            whole
-                + if part > 0.0 {
-                    (1.0 - part) * kernel[n - 1 - last] * increment(last)
-                } else {
-                    0.0
-                }
+            match part > 0.0 {
+                true => whole + (1.0 - part) * kernel[n - 1 - last] * increment(last),
+                false => whole,
+            }
         };
         let force = hertz.stiffness() * sum(|x| x * x.sqrt());
         peak_force = peak_force.max(force);

@@ -11,6 +11,11 @@ use super::{
 
 pub const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
 
+/// Every law, with every way to relax.
+pub fn laws_and_modes() -> impl Iterator<Item = (HyperelasticLaw, ActsOn)> {
+    HyperelasticLaw::ALL.into_iter().flat_map(|law| MODES.map(|acts_on| (law, acts_on)))
+}
+
 /// Creates a series from weights and relaxation times.
 pub fn relaxing(
     law: HyperelasticLaw,
@@ -184,23 +189,21 @@ fn work_equals_stored_plus_dissipated_energy() {
 #[test]
 fn a_rotation_leaves_the_history_and_turns_the_stress() {
     let mut random = Random(12);
-    for law in HyperelasticLaw::ALL {
-        for acts_on in MODES {
-            let solid = relaxing(law, 0.3, &TERMS, acts_on);
-            let direction = random.gradient(0.3);
-            let still = |t: f64| tensor(components(&direction).map(|x| x * t));
-            let turning = |t: f64| gradient_of(product(rotation(2.0 * t), deformation(&still(t))));
-            let (stress, history) = march(&solid, 1.0, 20, still);
-            let (turned, turned_history) = march(&solid, 1.0, 20, turning);
-            for (found, expected) in turned.iter().zip(product(rotation(2.0), stress)) {
-                // Rounding, 1e-16, over 20 steps.
-                assert!((found - expected).abs() < 1e-13, "{law:?} {acts_on:?}");
-            }
-            for (a, b) in turned_history.iter().zip(&history) {
-                let errors = [a.rr - b.rr, a.yy - b.yy, a.ry - b.ry];
-                assert!(errors.iter().all(|x| x.abs() < 1e-14), "{law:?} {acts_on:?}");
-                assert!((a.volume_change - b.volume_change).abs() < 1e-14);
-            }
+    for (law, acts_on) in laws_and_modes() {
+        let solid = relaxing(law, 0.3, &TERMS, acts_on);
+        let direction = random.gradient(0.3);
+        let still = |t: f64| tensor(components(&direction).map(|x| x * t));
+        let turning = |t: f64| gradient_of(product(rotation(2.0 * t), deformation(&still(t))));
+        let (stress, history) = march(&solid, 1.0, 20, still);
+        let (turned, turned_history) = march(&solid, 1.0, 20, turning);
+        for (found, expected) in turned.iter().zip(product(rotation(2.0), stress)) {
+            // Rounding, 1e-16, over 20 steps.
+            assert!((found - expected).abs() < 1e-13, "{law:?} {acts_on:?}");
+        }
+        for (a, b) in turned_history.iter().zip(&history) {
+            let errors = [a.rr - b.rr, a.yy - b.yy, a.ry - b.ry];
+            assert!(errors.iter().all(|x| x.abs() < 1e-14), "{law:?} {acts_on:?}");
+            assert!((a.volume_change - b.volume_change).abs() < 1e-14);
         }
     }
 }
@@ -209,18 +212,16 @@ fn a_rotation_leaves_the_history_and_turns_the_stress() {
 #[test]
 fn stress_of_all_branches_is_their_sum() {
     let mut random = Random(13);
-    for law in HyperelasticLaw::ALL {
-        for acts_on in MODES {
-            let solid = relaxing(law, 0.45, &TERMS, acts_on);
-            let direction = random.gradient(0.3);
-            let (piola, history) = march(&solid, 1.0, 10, |t| path(&direction, t));
-            let h = path(&direction, 1.0);
-            let s = solid.cauchy(&h, &history).unwrap();
-            let found = [s.rr, s.ry, s.ry, s.yy, s.tt].into_iter();
-            for (found, expected) in found.zip(cauchy_of(piola, &h)) {
-                // Rounding of stresses about 1.
-                assert!((found - expected).abs() < 1e-13, "{law:?} {acts_on:?}");
-            }
+    for (law, acts_on) in laws_and_modes() {
+        let solid = relaxing(law, 0.45, &TERMS, acts_on);
+        let direction = random.gradient(0.3);
+        let (piola, history) = march(&solid, 1.0, 10, |t| path(&direction, t));
+        let h = path(&direction, 1.0);
+        let s = solid.cauchy(&h, &history).unwrap();
+        let found = [s.rr, s.ry, s.ry, s.yy, s.tt].into_iter();
+        for (found, expected) in found.zip(cauchy_of(piola, &h)) {
+            // Rounding of stresses about 1.
+            assert!((found - expected).abs() < 1e-13, "{law:?} {acts_on:?}");
         }
     }
 }

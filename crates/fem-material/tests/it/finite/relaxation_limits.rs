@@ -5,7 +5,7 @@ use fem_material::finite::{
 };
 use fem_material::{ActsOn, ElasticModuli, RelaxationStep};
 
-use super::relaxation::{MODES, TERMS, relaxing};
+use super::relaxation::{MODES, TERMS, laws_and_modes, relaxing};
 use super::stiffness::largest_by_powers;
 use super::{Random, assert_slopes, components, distance, gradient_of, moduli, solid, tensor};
 
@@ -23,32 +23,30 @@ fn relaxing_law_differs_from_the_prony_series_at_second_order() {
     let mut random = Random(21);
     let corners: [AxisymmetricTensor; 4] = std::array::from_fn(|_| random.gradient(1.0));
     let steps = [0.01, 0.3, 2.0, 0.1];
-    for law in HyperelasticLaw::ALL {
-        for acts_on in MODES {
-            let solid = relaxing(law, 0.3, &TERMS, acts_on);
-            let error = |size: f64| {
-                let mut history = vec![ViscousStrain::default(); 2];
-                let mut effective = [[0.0; 4]; 2];
-                let (mut h, mut strain) = (tensor([0.0; 5]), [0.0; 4]);
-                for (corner, dt) in corners.iter().zip(steps) {
-                    let next = tensor(components(corner).map(|x| size * x));
-                    solid.step(dt).advance(&h, &next, &mut history);
-                    let next_strain = [next.rr, next.yy, next.tt, next.ry + next.yr];
-                    for (q, (_, tau)) in effective.iter_mut().zip(TERMS) {
-                        let step = RelaxationStep::new(tau, dt);
-                        for i in 0..4 {
-                            q[i] = step.advance(q[i], next_strain[i] - strain[i]);
-                        }
+    for (law, acts_on) in laws_and_modes() {
+        let solid = relaxing(law, 0.3, &TERMS, acts_on);
+        let error = |size: f64| {
+            let mut history = vec![ViscousStrain::default(); 2];
+            let mut effective = [[0.0; 4]; 2];
+            let (mut h, mut strain) = (tensor([0.0; 5]), [0.0; 4]);
+            for (corner, dt) in corners.iter().zip(steps) {
+                let next = tensor(components(corner).map(|x| size * x));
+                solid.step(dt).advance(&h, &next, &mut history);
+                let next_strain = [next.rr, next.yy, next.tt, next.ry + next.yr];
+                for (q, (_, tau)) in effective.iter_mut().zip(TERMS) {
+                    let step = RelaxationStep::new(tau, dt);
+                    for i in 0..4 {
+                        q[i] = step.advance(q[i], next_strain[i] - strain[i]);
                     }
-                    (h, strain) = (next, next_strain);
                 }
-                let [rr, yy, tt, ry] = prony_stress(0.3, acts_on, strain, effective);
-                let found = components(&solid.first_piola(&h, &history).unwrap());
-                distance(found, [rr, ry, ry, yy, tt])
-            };
-            let order = (error(1e-3) / error(5e-4)).log2();
-            assert!((order - 2.0).abs() < 0.02, "{law:?} {acts_on:?}: order {order}");
-        }
+                (h, strain) = (next, next_strain);
+            }
+            let [rr, yy, tt, ry] = prony_stress(0.3, acts_on, strain, effective);
+            let found = components(&solid.first_piola(&h, &history).unwrap());
+            distance(found, [rr, ry, ry, yy, tt])
+        };
+        let order = (error(1e-3) / error(5e-4)).log2();
+        assert!((order - 2.0).abs() < 0.02, "{law:?} {acts_on:?}: order {order}");
     }
 }
 
@@ -70,22 +68,20 @@ fn prony_stress(nu: f64, acts_on: ActsOn, strain: [f64; 4], effective: [[f64; 4]
 #[test]
 fn relaxing_law_at_time_zero_is_the_instantaneous_law() {
     let mut random = Random(22);
-    for law in HyperelasticLaw::ALL {
-        for acts_on in MODES {
-            let (relaxing, elastic) = (relaxing(law, 0.3, &TERMS, acts_on), solid(law, 0.3));
-            for _ in 0..20 {
-                let h = random.gradient(0.4);
-                for history in [vec![ViscousStrain::default(); 2], hold(&relaxing, &h, 2e-13)] {
-                    let found = components(&relaxing.first_piola(&h, &history).unwrap());
-                    let expected = components(&elastic.first_piola(&h).unwrap());
-                    assert!(distance(found, expected) < 1e-10, "{law:?} {acts_on:?}");
-                    let energy = relaxing.energy(&h, &history).unwrap();
-                    assert!((energy - elastic.energy(&h).unwrap()).abs() < 1e-10);
-                    let found = relaxing.cauchy(&h, &history).unwrap();
-                    let expected = elastic.cauchy(&h).unwrap();
-                    assert!((found.yy - expected.yy).abs() < 1e-10);
-                    assert!((found.ry - expected.ry).abs() < 1e-10);
-                }
+    for (law, acts_on) in laws_and_modes() {
+        let (relaxing, elastic) = (relaxing(law, 0.3, &TERMS, acts_on), solid(law, 0.3));
+        for _ in 0..20 {
+            let h = random.gradient(0.4);
+            for history in [vec![ViscousStrain::default(); 2], hold(&relaxing, &h, 2e-13)] {
+                let found = components(&relaxing.first_piola(&h, &history).unwrap());
+                let expected = components(&elastic.first_piola(&h).unwrap());
+                assert!(distance(found, expected) < 1e-10, "{law:?} {acts_on:?}");
+                let energy = relaxing.energy(&h, &history).unwrap();
+                assert!((energy - elastic.energy(&h).unwrap()).abs() < 1e-10);
+                let found = relaxing.cauchy(&h, &history).unwrap();
+                let expected = elastic.cauchy(&h).unwrap();
+                assert!((found.yy - expected.yy).abs() < 1e-10);
+                assert!((found.ry - expected.ry).abs() < 1e-10);
             }
         }
     }
@@ -96,36 +92,34 @@ fn relaxing_law_at_time_zero_is_the_instantaneous_law() {
 #[test]
 fn relaxing_law_held_long_is_the_equilibrium_law() {
     let mut random = Random(23);
-    for law in HyperelasticLaw::ALL {
-        for acts_on in MODES {
-            let relaxing = relaxing(law, 0.3, &TERMS, acts_on);
-            let (k, g) = (moduli(0.3).bulk_modulus(), moduli(0.3).shear_modulus());
-            let left_bulk = if acts_on == ActsOn::All { 0.2 } else { 1.0 };
-            let left = ElasticModuli::from_bulk_shear(left_bulk * k, 0.2 * g).unwrap();
-            let elastic = Hyperelastic::new(law, &left);
-            for _ in 0..20 {
-                let h = random.gradient(0.4);
-                let history = hold(&relaxing, &h, 2e6);
-                let found = relaxing.cauchy(&h, &history).unwrap();
-                let mut expected = elastic.cauchy(&h).unwrap();
-                if law == HyperelasticLaw::NeoHookeLn && acts_on == ActsOn::Shear {
-                    let j = 1.0 + h.volume_change();
-                    let rest = 0.8 * g * (j.powf(2.0 / 3.0) - 1.0 - 2.0 / 3.0 * j.ln()) / j;
-                    expected.rr += rest;
-                    expected.yy += rest;
-                    expected.tt += rest;
-                }
-                for (found, expected) in [
-                    (found.rr, expected.rr),
-                    (found.yy, expected.yy),
-                    (found.tt, expected.tt),
-                    (found.ry, expected.ry),
-                ] {
-                    // e^{-1e6} is nothing; rounding.
-                    assert!((found - expected).abs() < 1e-12, "{law:?} {acts_on:?}");
-                }
-                assert!(relaxing.energy_and_dissipation_rate(&h, &history).1.abs() < 1e-12);
+    for (law, acts_on) in laws_and_modes() {
+        let relaxing = relaxing(law, 0.3, &TERMS, acts_on);
+        let (k, g) = (moduli(0.3).bulk_modulus(), moduli(0.3).shear_modulus());
+        let left_bulk = if acts_on == ActsOn::All { 0.2 } else { 1.0 };
+        let left = ElasticModuli::from_bulk_shear(left_bulk * k, 0.2 * g).unwrap();
+        let elastic = Hyperelastic::new(law, &left);
+        for _ in 0..20 {
+            let h = random.gradient(0.4);
+            let history = hold(&relaxing, &h, 2e6);
+            let found = relaxing.cauchy(&h, &history).unwrap();
+            let mut expected = elastic.cauchy(&h).unwrap();
+            if law == HyperelasticLaw::NeoHookeLn && acts_on == ActsOn::Shear {
+                let j = 1.0 + h.volume_change();
+                let rest = 0.8 * g * (j.powf(2.0 / 3.0) - 1.0 - 2.0 / 3.0 * j.ln()) / j;
+                expected.rr += rest;
+                expected.yy += rest;
+                expected.tt += rest;
             }
+            for (found, expected) in [
+                (found.rr, expected.rr),
+                (found.yy, expected.yy),
+                (found.tt, expected.tt),
+                (found.ry, expected.ry),
+            ] {
+                // e^{-1e6} is nothing; rounding.
+                assert!((found - expected).abs() < 1e-12, "{law:?} {acts_on:?}");
+            }
+            assert!(relaxing.energy_and_dissipation_rate(&h, &history).1.abs() < 1e-12);
         }
     }
 }
@@ -206,18 +200,16 @@ fn a_constant_rate_is_exact_in_one_step() {
 #[test]
 fn the_stiffness_of_all_branches_is_the_slope_of_the_stress() {
     let mut random = Random(26);
-    for law in HyperelasticLaw::ALL {
-        for acts_on in MODES {
-            for (size, slack) in [(1e-6, 1e-6), (0.3, 0.0255)] {
-                let solid = relaxing(law, 0.3, &TERMS, acts_on);
-                let history = hold(&solid, &random.gradient(size), 1.0);
-                let h = random.gradient(size);
-                let tangent = solid.tangent(&h, &history).unwrap();
-                assert_slopes(tangent, &h, 1e-7, |h| solid.first_piola(h, &history).unwrap());
-                let found = solid.largest_stiffness(&h, &history).unwrap();
-                let excess = found / largest_by_powers(&tangent) - 1.0;
-                assert!((-1e-9..slack).contains(&excess), "{law:?} {acts_on:?}: {excess:e}");
-            }
+    for (law, acts_on) in laws_and_modes() {
+        for (size, slack) in [(1e-6, 1e-6), (0.3, 0.0255)] {
+            let solid = relaxing(law, 0.3, &TERMS, acts_on);
+            let history = hold(&solid, &random.gradient(size), 1.0);
+            let h = random.gradient(size);
+            let tangent = solid.tangent(&h, &history).unwrap();
+            assert_slopes(tangent, &h, 1e-7, |h| solid.first_piola(h, &history).unwrap());
+            let found = solid.largest_stiffness(&h, &history).unwrap();
+            let excess = found / largest_by_powers(&tangent) - 1.0;
+            assert!((-1e-9..slack).contains(&excess), "{law:?} {acts_on:?}: {excess:e}");
         }
     }
 }

@@ -8,56 +8,17 @@ use super::super::hourglass::Deformed;
 use super::super::internal_variables::FIELDS_PER_TERM;
 use super::super::law::RelaxingLaw;
 use super::*;
-use crate::test_support::relaxing_glass;
+use crate::test_support::{March, relaxing_glass, scaled};
 
 const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
+
+/// Every law, with every way to relax.
+fn laws_and_modes() -> impl Iterator<Item = (HyperelasticLaw, ActsOn)> {
+    HyperelasticLaw::ALL.into_iter().flat_map(|law| MODES.map(|acts_on| (law, acts_on)))
+}
+
 /// Terms that are fast and slow compared with the paths of the tests, and an equilibrium modulus.
 const TERMS: [(f64, f64); 2] = [(0.3, 0.2), (0.5, 2.0)];
-
-/// The elements of a body on a path that the test chooses.
-pub(super) struct March {
-    pub stress: Box<dyn Stress>,
-    pub history: Vec<NodalField>,
-    pub u: Vec<[f64; 2]>,
-}
-
-impl March {
-    pub fn new(mut stress: Box<dyn Stress>, mesh: &SphereMesh, time_step: f64) -> Self {
-        stress.set_time_step(time_step);
-        let of_elements = vec![vec![[0.0; 2]; mesh.quads().len()]; stress.n_element_history()];
-        let of_nodes = vec![vec![[0.0; 2]; mesh.nodes().len()]; stress.n_history()];
-        let history = [of_elements, of_nodes].concat();
-        Self { stress, history, u: vec![[0.0; 2]; mesh.nodes().len()] }
-    }
-
-    pub fn step(&mut self, time_step: f64, u: &Field) {
-        let rate = |(after, before): (&[f64; 2], &[f64; 2])| {
-            [0, 1].map(|axis: usize| (after[axis] - before[axis]) / time_step)
-        };
-        let velocity: Vec<_> = u.iter().zip(&self.u).map(rate).collect();
-        self.u = u.to_vec();
-        let motion = Motion { time_step, velocity: &velocity, ..motion(&self.u) };
-        self.stress.advance(&motion, &mut self.history);
-    }
-
-    pub fn forces(&self) -> Vec<[f64; 2]> {
-        let mut f = vec![[0.0; 2]; self.u.len()];
-        self.stress.subtract_forces(&motion(&self.u), &self.history, &mut f).unwrap();
-        f
-    }
-
-    /// Returns the stored energy and the dissipated power.
-    fn energies(&self, u: &Field) -> (f64, f64) {
-        let mut accounts = Accounts::default();
-        self.stress.add_energies(&motion(u), &self.history, &mut accounts);
-        let power = accounts.powers.get(Account::ViscousDissipation).unwrap();
-        (accounts.energies.get(Account::Strain).unwrap(), power)
-    }
-}
-
-pub(super) fn scaled(shape: &Field, factor: f64) -> Vec<[f64; 2]> {
-    shape.iter().map(|u| u.map(|u| factor * u)).collect()
-}
 
 /// Shares of a deformation over time, up and back.
 const PATH: [(f64, f64); 4] = [(0.05, 0.6), (0.2, 1.0), (1.0, 0.7), (0.1, -0.2)];
@@ -105,11 +66,9 @@ fn held(law: HyperelasticLaw, acts_on: ActsOn) -> (SphereMesh, March) {
 /// Forces are the derivative of the stored energy at fixed internal variables.
 #[test]
 fn forces_are_the_derivative_of_the_stored_energy() {
-    for acts_on in MODES {
-        for law in HyperelasticLaw::ALL {
-            let (_, march) = held(law, acts_on);
-            assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, law);
-        }
+    for (law, acts_on) in laws_and_modes() {
+        let (_, march) = held(law, acts_on);
+        assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, &law);
     }
 }
 
@@ -118,33 +77,30 @@ fn forces_are_the_derivative_of_the_stored_energy() {
 fn work_of_relaxing_elements_is_stored_or_dissipated() {
     let mesh = mesh();
     let shape = deformed(&mesh);
-    for acts_on in MODES {
-        for law in HyperelasticLaw::ALL {
-            let material = relaxing_glass(&TERMS, acts_on);
-            let residual = |n: u32| {
-                let time_step = 1.0 / f64::from(n);
-                let mut march = March::new(stress(&mesh, &material, law), &mesh, time_step);
-                let (mut work, mut dissipated) = (0.0, 0.0);
-                let (mut f, mut power) = (vector(&march.forces()), 0.0);
-                for k in 1..=n {
-                    let t = f64::from(k) * time_step;
-                    let before = vector(&march.u);
-                    // There, and a third of the way back.
-                    march.step(time_step, &scaled(&shape, t * t * (3.0 - 2.3 * t)));
-                    let (f_next, power_next) =
-                        (vector(&march.forces()), march.energies(&march.u).1);
-                    work -= 0.5 * (&f + &f_next).dot(&(vector(&march.u) - before));
-                    dissipated += 0.5 * time_step * (power + power_next);
-                    (f, power) = (f_next, power_next);
-                }
-                assert!(dissipated > 0.02 * work, "{law:?}: {dissipated} of {work}");
-                (work - march.energies(&march.u).0 - dissipated) / work
-            };
-            let (coarse, fine) = (residual(40), residual(80));
-            let order = (coarse / fine).abs().log2();
-            assert!((order - 2.0).abs() < 0.2, "{law:?} {acts_on:?}: {order} {coarse:e} {fine:e}");
-            assert!(fine.abs() < 1e-3, "{law:?} {acts_on:?}: {fine:e}");
-        }
+    for (law, acts_on) in laws_and_modes() {
+        let material = relaxing_glass(&TERMS, acts_on);
+        let residual = |n: u32| {
+            let time_step = 1.0 / f64::from(n);
+            let mut march = March::new(stress(&mesh, &material, law), &mesh, time_step);
+            let (mut work, mut dissipated) = (0.0, 0.0);
+            let (mut f, mut power) = (vector(&march.forces()), 0.0);
+            for k in 1..=n {
+                let t = f64::from(k) * time_step;
+                let before = vector(&march.u);
+                // There, and a third of the way back.
+                march.step(time_step, &scaled(&shape, t * t * (3.0 - 2.3 * t)));
+                let (f_next, power_next) = (vector(&march.forces()), march.energies(&march.u).1);
+                work -= 0.5 * (&f + &f_next).dot(&(vector(&march.u) - before));
+                dissipated += 0.5 * time_step * (power + power_next);
+                (f, power) = (f_next, power_next);
+            }
+            assert!(dissipated > 0.02 * work, "{law:?}: {dissipated} of {work}");
+            (work - march.energies(&march.u).0 - dissipated) / work
+        };
+        let (coarse, fine) = (residual(40), residual(80));
+        let order = (coarse / fine).abs().log2();
+        assert!((order - 2.0).abs() < 0.2, "{law:?} {acts_on:?}: {order} {coarse:e} {fine:e}");
+        assert!(fine.abs() < 1e-3, "{law:?} {acts_on:?}: {fine:e}");
     }
 }
 
