@@ -19,7 +19,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 39] = [
+const ENDINGS: [UnitSuffix; 40] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -47,7 +47,8 @@ const ENDINGS: [UnitSuffix; 39] = [
     ending("_m", 1.0, [1, 0, 0]),
     ending("_kn", 1e3, [1, 1, -2]),
     ending("_mn", 1e-3, [1, 1, -2]),
-    ending("_n", 1.0, [1, 1, -2]),
+    ending(NEWTON, 1.0, [1, 1, -2]),
+    ending("_newton", 1.0, [1, 1, -2]),
     ending("_pa", 1.0, PRESSURE),
     ending("_kpa", 1e3, PRESSURE),
     ending("_mpa", 1e6, PRESSURE),
@@ -64,13 +65,19 @@ const ENDINGS: [UnitSuffix; 39] = [
     ending("_kelvin", 1.0, [0; 3]),
 ];
 
+/// The ending of newton, which is a part of the name where no force can stand: `e_n`.
+const NEWTON: &str = "_n";
+/// Names of forces, and how others begin.
+const FORCES: [&str; 8] = ["f", "fn", "fmax", "fz", "fy", "f_max", "f_peak", "n"];
+const FORCE_WORDS: [&str; 3] = ["force", "load", "kraft"];
+
 /// A pound-force per square inch, Pa: lb g_n / in².
 const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
 /// Exponents of a pressure.
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
 /// Names of units that the units of a case do not have, with their endings.
-const OTHER_UNITS: [(&str, &str); 27] = [
+const OTHER_UNITS: [(&str, &str); 30] = [
     ("rad/s", "_rad_s"),
     ("rad s^-1", "_rad_s"),
     ("rad·s⁻¹", "_rad_s"),
@@ -98,6 +105,9 @@ const OTHER_UNITS: [(&str, &str); 27] = [
     ("dyne/cm²", "_dyn_cm2"),
     ("dyne/cm2", "_dyn_cm2"),
     ("hr", "_hours"),
+    ("second", "_s"),
+    ("seconds", "_s"),
+    ("sec", "_s"),
 ];
 
 /// Returns the ending of a unit of an angle, a rate of phase or a temperature.
@@ -107,7 +117,25 @@ pub(super) fn other_ending(unit: &str) -> Option<&'static str> {
 
 /// Returns the unit in which a column's name ends.
 pub(super) fn ending_of(header: &str) -> Option<UnitSuffix> {
-    ENDINGS.into_iter().find(|ending| header.ends_with(ending.text))
+    ENDINGS.into_iter().find(|ending| ending.before(header).is_some())
+}
+
+impl UnitSuffix {
+    /// Returns what is before this ending of a name.
+    fn before(self, header: &str) -> Option<&str> {
+        let name = header.strip_suffix(self.text)?;
+        (self.text != NEWTON || is_force(name)).then_some(name)
+    }
+}
+
+fn is_force(name: &str) -> bool {
+    FORCES.contains(&name) || FORCE_WORDS.iter().any(|word| name.contains(word))
+}
+
+/// Returns a name with the ending of a unit.
+pub(super) fn with_ending(name: &str, ending: &str) -> String {
+    let is_unclear = ending == NEWTON && !is_force(name);
+    format!("{name}{}", if is_unclear { "_newton" } else { ending })
 }
 
 /// Returns the ending of a unit, given by its factor to SI and its dimension (metre, kilogram, second, byte).
@@ -120,8 +148,8 @@ pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<UnitSuffix>
 }
 
 /// Returns a name without the ending of its unit.
-pub(super) fn bare(header: &str) -> &str {
-    ENDINGS.iter().find_map(|ending| header.strip_suffix(ending.text)).unwrap_or(header)
+pub(crate) fn bare(header: &str) -> &str {
+    ending_of(header).and_then(|ending| ending.before(header)).unwrap_or(header)
 }
 
 /// Returns a name without a unit in brackets, which it keeps if no column has that unit: `voltage [V]`.
@@ -132,11 +160,11 @@ pub(super) fn before_brackets(header: &str) -> &str {
 /// Returns a name and all names that it may be without a unit at its end: `speed_m_s` is `speed` in m/s, or
 /// `speed_m` in s.
 pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {
-    let bare = ENDINGS.iter().filter_map(|ending| header.strip_suffix(ending.text));
+    let bare = ENDINGS.into_iter().filter_map(|ending| ending.before(header));
     std::iter::once(header).chain(bare)
 }
 
-pub(super) const SPEEDS: [&str; 10] = [
+pub(super) const SPEEDS: [&str; 14] = [
     "speed",
     "approach_speed",
     "impact_speed",
@@ -147,9 +175,21 @@ pub(super) const SPEEDS: [&str; 10] = [
     "relative_velocity",
     "incident_velocity",
     "v",
+    "v_n",
+    "vn",
+    "normal_velocity",
+    "normal_speed",
 ];
-pub(super) const RESTITUTIONS: [&str; 5] =
-    ["restitution", "coefficient_of_restitution", "restitution_coefficient", "cor", "e"];
+pub(super) const RESTITUTIONS: [&str; 8] = [
+    "restitution",
+    "coefficient_of_restitution",
+    "restitution_coefficient",
+    "cor",
+    "e",
+    "e_n",
+    "en",
+    "normal_restitution",
+];
 /// Uncertainties whose names do not say of what.
 const UNCERTAINTIES: [&str; 13] = [
     "uncertainty",

@@ -116,6 +116,7 @@ fn read_rows(
         lines: rows.iter().map(|row| table.line(*row)).collect(),
         points,
         unread,
+        notes: table.left_out().to_vec(),
     };
     Ok((restitutions, rows))
 }

@@ -189,6 +189,9 @@ fn tables_of_papers_and_spreadsheets_are_read() {
         ("v,e\n30 ± 0.5 cm/s,0.5 ± 10 %\n40 ± 0.5 cm/s,0.4 ± 10 %\n", 0.3, Some(0.05)),
         ("v (m/s);COR (%)\n0,5;91 ± 2\n1;90 ± 2\n", 0.5, Some(0.02)),
         ("v, m/s;e\n0,5;0,91\n1;0,9\n", 0.5, None),
+        ("v,e\n0.5,0.91(2)\n1,0.90(2)\n", 0.5, Some(0.02)),
+        ("Glass on glass\nv,e\n0.5,0.91\n1,0.90\n", 0.5, None),
+        ("Glass, dry\nv_n;e_n\n0,5;0,91 ± 0,02\n1;0,90 ± 0,02\n", 0.5, Some(0.02)),
     ] {
         let table = Table::parse("e.csv", text).unwrap();
         let data = Restitutions::read(&table, ball().scene()).unwrap();
