@@ -164,7 +164,7 @@ pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {
     std::iter::once(header).chain(bare)
 }
 
-pub(super) const SPEEDS: [&str; 14] = [
+pub(super) const SPEEDS: [&str; 18] = [
     "speed",
     "approach_speed",
     "impact_speed",
@@ -179,6 +179,31 @@ pub(super) const SPEEDS: [&str; 14] = [
     "vn",
     "normal_velocity",
     "normal_speed",
+    "speed_before",
+    "velocity_before",
+    "v_before",
+    "v_in",
+];
+/// Names of columns of heights from which a body falls on the other one, most certain first.
+pub(super) const DROP_HEIGHTS: [&[&str]; 2] = [
+    &["drop_height", "release_height", "initial_height", "fall_height", "h0", "h_0", "h_drop"],
+    &["height", "h", "h1", "h_1"],
+];
+/// Names of columns of heights to which it rebounds.
+pub(super) const REBOUND_HEIGHTS: [&[&str]; 2] = [
+    &["rebound_height", "bounce_height", "return_height", "final_height", "h_rebound", "h2", "h_2"],
+    &["h1", "h_1"],
+];
+/// Names of columns of speeds after impacts.
+pub(super) const REBOUND_SPEEDS: [&str; 8] = [
+    "rebound_speed",
+    "rebound_velocity",
+    "speed_after",
+    "velocity_after",
+    "v_after",
+    "v_out",
+    "v_rebound",
+    "exit_velocity",
 ];
 pub(super) const RESTITUTIONS: [&str; 8] = [
     "restitution",
@@ -326,8 +351,9 @@ const MODULI: [&str; 11] = [
 /// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
 pub(super) fn column_names() -> Vec<&'static str> {
     let diameters = DIAMETERS.map(|[name, _]| name);
-    let all: [&[&str]; 9] = [
+    let all: [&[&str]; 10] = [
         &SPEEDS,
+        &["drop_height", "rebound_height", "rebound_speed"],
         &RESTITUTIONS,
         &["restitution_uncertainty"],
         &UNCERTAINTIES,
