@@ -292,15 +292,17 @@ impl BounceTimes {
         });
         let (mut impacts, errors): (Vec<Impact>, Vec<Errors>) = found_impacts.into_iter().unzip();
         let last_drop = drops(&spans).last().map_or(0, |drop| drop[0].from);
-        let to_rest = |rest| to_rest(&instants, last_drop, &uncertainties, rest);
+        let drop = speeds.drop(rig);
+        let to_rest = |rest| to_rest(&instants, last_drop, &uncertainties, rest, drop);
         let restitution_to_rest = rig.rest.map(to_rest);
         let restitution_to_rest = restitution_to_rest.transpose()?;
         if impacts.is_empty()
-            && let (Some(restitution), Some(first)) = (restitution_to_rest, speeds.by_span.first())
-            && let Some(flight) = first
+            && let Some(restitution) = restitution_to_rest
+            && let Some((time, speed)) = match speeds.by_span.first() {
+                Some(flight) => flight.map(|flight| (flight.time, flight.landing_speed())),
+                None => drop.map(|(speed, _)| (instants.values[0], speed)),
+            }
         {
-            let time = flight.time;
-            let speed = flight.landing_speed();
             impacts.push(Impact { time, speed, restitution, contact_time: None });
             warnings.push("the restitution is a mean over all bounces until rest".to_string());
         }
@@ -421,8 +423,13 @@ impl BounceTimes {
 fn check_flights(instants: &Instants, rig: &Rig) -> Result<(), DataError> {
     let values = &instants.values;
     let error = |message: String| DataError::new(&instants.name, message);
-    let is_enough =
-        values.len() >= 3 || values.len() == 2 && (rig.drop_height.is_some() || rig.rest.is_some());
+    let (height, rest) = (rig.drop_height.is_some(), rig.rest.is_some());
+    let is_enough = match values.len() {
+        0 => false,
+        1 => height && rest,
+        2 => height || rest,
+        _ => true,
+    };
     if !is_enough {
         let found = match values.len() {
             0 => "there is no instant".to_string(),
@@ -432,7 +439,7 @@ fn check_flights(instants: &Instants, rig: &Rig) -> Result<(), DataError> {
         let message = format!("{found}: a restitution needs two flights in a row, three instants");
         return Err(error(message).with_help(
             "list more bounces; with two of them --height of the drop or --rest, the time at which the ball comes to \
-             rest, suffices",
+             rest, suffices, and with one both",
         ));
     }
     let flights = || values.windows(2).map(|pair| pair[1] - pair[0]);
@@ -514,17 +521,24 @@ fn to_rest(
     first_index: usize,
     uncertainties: &[f64],
     rest: Measured,
+    drop: Option<(Measured, Measured)>,
 ) -> Result<Measured, DataError> {
-    let [first, second, ..] = instants.values[first_index..] else {
-        return Ok(Measured::exact(0.0));
-    };
-    let last = instants.values[instants.values.len() - 1];
+    let (first, last) = (instants.values[first_index], instants.values[instants.values.len() - 1]);
     if rest.value <= last {
         let message = format!("the ball is at rest at {} s and bounces at {last} s", rest.value);
         let help = "--rest is the time at which the ball comes to rest, on the clock of the record";
         return Err(DataError::new(&instants.name, message).with_help(help));
     }
-    let (flight, whole) = (second - first, rest.value - first);
+    let whole = rest.value - first;
+    let Some(second) = instants.values.get(first_index + 1) else {
+        // The first flight lasts 2et after a fall of t, so that e = T/(T + 2t).
+        let twice = drop.map_or(Measured::exact(0.0), |(_, twice)| twice);
+        let e = whole / (whole + twice.value);
+        let of_whole = rest.uncertainty.hypot(uncertainties[first_index]) / whole;
+        let uncertainty = e * (1.0 - e) * of_whole.hypot(twice.uncertainty / twice.value);
+        return Ok(Measured { value: e, uncertainty });
+    };
+    let flight = second - first;
     let e = 1.0 - flight / whole;
     let slopes = [1.0 / whole - flight / (whole * whole), 1.0 / whole, flight / (whole * whole)];
     let [of_first, of_second] = [first_index, first_index + 1].map(|k| uncertainties[k]);

@@ -233,6 +233,13 @@ fn height_contact_time_and_rest_of_the_rig_are_used() {
         (found.impacts.last().unwrap().restitution.value, found.contact_time_slope)
     });
     assert!(((with.0 - without.0) / change / without.1 - 1.0).abs() < 1e-3);
+    // One instant suffices with both: e = T/(T + 2t) of 6.0843 s to rest after a fall of 0.4658 s.
+    let rig = Rig { drop_height: exact(1.064), rest: exact(6.55), ..Rig::default() };
+    let found = bounces("time_s\n0.4657\n", &rig);
+    let whole = 6.55 - 0.4657;
+    let expected = whole / (whole + 2.0 * (2.0 * 1.064 / Ball::G).sqrt());
+    assert!((found.impacts[0].restitution.value - expected).abs() < 1e-12, "{:?}", found.impacts);
+    assert!((expected - 0.867).abs() < 5e-4 && found.impacts.len() == 1);
     // One flight suffices with the height or with the rest.
     for rig in [
         Rig { drop_height: exact(0.5), ..Rig::default() },
@@ -278,7 +285,7 @@ fn headers_units_and_dialects_of_instants_are_read() {
 fn records_that_say_nothing_are_errors_that_say_why() {
     // The unit of the heights is not known, and so they are not found.
     let frames: String = (0..100).map(|k| format!("{:.5},{k}\n", f64::from(k) / 240.0)).collect();
-    let frames = "t,y_px\n".to_string() + &frames;
+    let frames = "t,y_ell\n".to_string() + &frames;
     let geometric = |n: i32| list((0..n).map(|k| 1.0 - 0.9f64.powi(k)));
     for (text, expected) in [
         ("", "there is no row below the header"),
