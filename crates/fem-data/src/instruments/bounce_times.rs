@@ -191,7 +191,8 @@ impl Instants {
         };
         let mut all = Self {
             name: columns.name().to_string(),
-            resolution: found.iter().map(|column| column.resolution).fold(0.0, f64::max),
+            // Zeros that fill a row have fewer digits.
+            resolution: found.iter().map(|column| column.resolution).fold(f64::INFINITY, f64::min),
             notes: columns.left_out().to_vec(),
             ..Self::default()
         };
@@ -401,7 +402,7 @@ impl BounceTimes {
     fn warn(&mut self, rig: &Rig) {
         let values = &self.instants.values;
         let longest = values.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        if longest < SHORT_FLIGHT {
+        if longest > 0.0 && longest < SHORT_FLIGHT {
             self.warnings.push(format!(
                 "the longest flight is {:.3} ms, a bounce of {:.1} um: is the time in seconds?",
                 1e3 * longest,

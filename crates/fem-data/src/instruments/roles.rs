@@ -49,7 +49,8 @@ impl RecordKind {
         if !has(&TIMES)? && (has(&EVENTS)? || has(&INTERVALS)? || drops) {
             return Ok(Self::Bounces);
         }
-        if has(&TIMES)? {
+        let is_timed = has(&TIMES)? || has(&FRAMES)?;
+        if is_timed {
             let second =
                 [(&FORCES[..], Self::Force), (&HEIGHTS, Self::Track), (&SIGNALS, Self::Sound)];
             for (names, kind) in second {
@@ -116,6 +117,9 @@ pub(super) fn is_numbered(header: &str, names: &[&str]) -> bool {
 
 /// Names of a column of the uncertainties of instants.
 pub(super) const TIME_UNCERTAINTIES: [&str; 3] = ["time_uncertainty", "t_uncertainty", "u(t)"];
+/// Names of a column of the numbers of frames.
+pub(super) const FRAMES: [&str; 6] =
+    ["frame", "frames", "frame_number", "frame_#", "image", "slice"];
 /// Names of a column of heights.
 pub(super) const HEIGHTS: [&str; 6] = ["height", "y", "position", "h", "z", "position_y"];
 /// Names of a column of the uncertainties of heights.

@@ -19,7 +19,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 40] = [
+const ENDINGS: [UnitSuffix; 43] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -59,12 +59,18 @@ const ENDINGS: [UnitSuffix; 40] = [
     // A name that ends in `_min` may be a least value.
     ending("_minutes", 60.0, [0, 0, 1]),
     ending("_hours", 3600.0, [0, 0, 1]),
+    // The scale of a picture is not in its names.
+    ending("_px", 1.0, PIXELS),
+    ending("_pixel", 1.0, PIXELS),
+    ending("_pixels", 1.0, PIXELS),
     // Scales of temperature have an offset, which their reader adds.
     ending("_degc", 1.0, [0; 3]),
     ending("_degf", 1.0, [0; 3]),
     ending("_kelvin", 1.0, [0; 3]),
 ];
 
+/// Exponents of a length in pixels, which is of no dimension of a table.
+const PIXELS: [i32; 3] = [1, 0, 1];
 /// The ending of newton, which is a part of the name where no force can stand: `e_n`.
 const NEWTON: &str = "_n";
 /// Names of forces, and how others begin.
@@ -77,7 +83,7 @@ const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
 /// Names of units that the units of a case do not have, with their endings.
-const OTHER_UNITS: [(&str, &str); 30] = [
+const OTHER_UNITS: [(&str, &str); 33] = [
     ("rad/s", "_rad_s"),
     ("rad s^-1", "_rad_s"),
     ("rad·s⁻¹", "_rad_s"),
@@ -105,6 +111,9 @@ const OTHER_UNITS: [(&str, &str); 30] = [
     ("dyne/cm²", "_dyn_cm2"),
     ("dyne/cm2", "_dyn_cm2"),
     ("hr", "_hours"),
+    ("px", "_px"),
+    ("pixel", "_px"),
+    ("pixels", "_px"),
     ("second", "_s"),
     ("seconds", "_s"),
     ("sec", "_s"),
@@ -121,6 +130,11 @@ pub(super) fn ending_of(header: &str) -> Option<UnitSuffix> {
 }
 
 impl UnitSuffix {
+    /// Whether the unit is a pixel.
+    pub fn is_pixel(self) -> bool {
+        self.dimension == PIXELS
+    }
+
     /// Returns what is before this ending of a name.
     fn before(self, header: &str) -> Option<&str> {
         let name = header.strip_suffix(self.text)?;

@@ -443,6 +443,11 @@ impl Table {
         Ok(NumberColumn { values, resolution })
     }
 
+    /// Whether a column is in pixels.
+    pub(crate) fn is_in_pixels(&self, column: usize) -> bool {
+        ending_of(&self.header[column]).is_some_and(|ending| ending.is_pixel())
+    }
+
     /// Returns the numbers of a column whatever its dimension, as of a signal whose unit does not matter.
     ///
     /// # Errors
