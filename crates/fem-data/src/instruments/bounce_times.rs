@@ -18,7 +18,7 @@ use crate::table::{DataError, Table};
 use super::flight_speeds::{Errors, Speeds};
 use super::impact::Impact;
 use super::rig::Rig;
-use super::roles::{TIME_UNCERTAINTIES, TIMES};
+use super::roles::{DROPS, EVENTS, INTERVALS, NUMBERED, TIME_UNCERTAINTIES, TIMES, is_numbered};
 use super::series::{FlightSpan, Scatter, drops, flight_spans, scatter};
 
 /// Longest flight, s; a longer one, with landing at 100 m/s, is one in another unit.
@@ -37,7 +37,7 @@ const MOST_WARNINGS: usize = 5;
 const LAST: usize = 3;
 
 /// The instants of a record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Instants {
     /// The name of the record in messages.
     pub name: String,
@@ -49,7 +49,14 @@ pub struct Instants {
     pub uncertainties: Option<Vec<f64>>,
     /// The smallest step between instants, s: one of the last digit, or of a sample.
     pub resolution: f64,
+    /// The first instants of drops after the first one, as indices, where the record says it.
+    pub starts: Vec<usize>,
+    /// What of the record is left out or changed.
+    pub notes: Vec<String>,
 }
+
+/// The time between two drops that a record has side by side, s.
+const PAUSE: f64 = 1.0;
 
 /// The source of the uncertainty of instants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -96,7 +103,45 @@ impl Instants {
     /// # Errors
     /// The table has no column of instants, a cell is no number, or the instants do not increase.
     pub fn read(columns: &Table) -> Result<Self, DataError> {
-        let column = columns.require(&TIMES, "time_s or time_ms")?;
+        let numbered = |names: &[&str]| -> Vec<usize> {
+            let is_it = |column: &usize| is_numbered(&columns.header()[*column], names);
+            (0..columns.header().len()).filter(is_it).collect()
+        };
+        let notes = columns.left_out().to_vec();
+        let (time, interval) = (columns.find(&TIMES)?, columns.find(&INTERVALS)?);
+        let numbers = numbered(&NUMBERED);
+        if time.is_none() && interval.is_none() && !numbers.is_empty() {
+            return Self::of_drops(columns, &numbers, numbered(&DROPS).len() == numbers.len());
+        }
+        let is_count = |column: usize| {
+            let count = |row: usize| columns.text(row, column).parse::<usize>().ok();
+            let follows = |row: usize| Some(count(row)? == count(row - 1)? + 1);
+            (1..columns.n_rows()).all(|row| follows(row) == Some(true))
+        };
+        let intervals = match (time, interval) {
+            (Some(time), Some(interval)) if is_count(interval) => Some(time),
+            (None, found) => found,
+            _ => None,
+        };
+        if let Some(column) = intervals {
+            let flights = columns.numbers(column, [0, 0, 1])?;
+            let known = flights.values.iter().copied().filter(|it| *it > 0.0);
+            let end = known.scan(0.0, |end, flight| {
+                *end += flight;
+                Some(*end)
+            });
+            return Ok(Self {
+                name: columns.name().to_string(),
+                values: std::iter::once(0.0).chain(end).collect(),
+                resolution: flights.resolution,
+                notes,
+                ..Self::default()
+            });
+        }
+        let column = match (time, columns.find(&EVENTS)?) {
+            (Some(column), _) | (None, Some(column)) => column,
+            _ => columns.require(&TIMES, "time_s or time_ms")?,
+        };
         let times = columns.numbers(column, [0, 0, 1])?;
         let uncertainties = match columns.find(&TIME_UNCERTAINTIES)? {
             Some(column) => Some(columns.numbers(column, [0, 0, 1])?.values),
@@ -114,6 +159,8 @@ impl Instants {
             values: kept(times.values),
             uncertainties: uncertainties.map(kept),
             resolution: times.resolution,
+            starts: Vec::new(),
+            notes,
         };
         let values = &instants.values;
         if let Some(k) = (1..values.len()).find(|k| values[*k] <= values[k - 1]) {
@@ -129,6 +176,73 @@ impl Instants {
             return Err(instants.fault(k, "the uncertainty of the instant").with_help(help));
         }
         Ok(instants)
+    }
+
+    /// Reads drops side by side, or one drop in a row; those that begin before the end of the last one follow it.
+    fn of_drops(columns: &Table, numbers: &[usize], are_drops: bool) -> Result<Self, DataError> {
+        let found = numbers.iter().map(|column| columns.numbers(*column, [0, 0, 1]));
+        let found = found.collect::<Result<Vec<_>, _>>()?;
+        let rows = 0..columns.n_rows();
+        let drops: Vec<Vec<f64>> = match are_drops {
+            true => found.iter().map(|column| column.values.clone()).collect(),
+            false => {
+                rows.map(|row| found.iter().map(|column| column.values[row]).collect()).collect()
+            }
+        };
+        let mut all = Self {
+            name: columns.name().to_string(),
+            // Zeros that fill a row have fewer digits.
+            resolution: found.iter().map(|column| column.resolution).fold(f64::INFINITY, f64::min),
+            notes: columns.left_out().to_vec(),
+            ..Self::default()
+        };
+        let mut n_moved = 0;
+        for (k, mut drop) in drops.into_iter().enumerate() {
+            drop.retain(|time| time.is_finite());
+            // A stopwatch fills the rest of a row with zeros.
+            while drop.len() > 1 && drop.last() == Some(&0.0) {
+                drop.pop();
+            }
+            if let Some(pair) = drop.windows(2).find(|pair| pair[1] <= pair[0]) {
+                let message = format!("the instant {} s does not follow {} s", pair[1], pair[0]);
+                let place = format!("drop {} has its instants in order", k + 1);
+                return Err(DataError::new(&all.name, message).with_help(place));
+            }
+            let (last, Some(first)) = (all.values.last().copied(), drop.first().copied()) else {
+                continue;
+            };
+            let shift = last.filter(|last| first <= *last).map_or(0.0, |last| last + PAUSE - first);
+            n_moved += usize::from(shift > 0.0);
+            all.starts.extend(last.map(|_| all.values.len()));
+            all.values.extend(drop.iter().map(|time| time + shift));
+        }
+        if n_moved > 0 {
+            all.notes.push(format!(
+                "{} drops: the instants of each follow those of the one before after {PAUSE} s",
+                all.starts.len() + 1
+            ));
+        }
+        Ok(all)
+    }
+
+    /// Returns the flights between the instants of each drop.
+    fn spans(&self) -> Vec<FlightSpan> {
+        let starts = self.starts.iter().copied();
+        let begins = std::iter::once(0).chain(starts.clone());
+        let mut spans = Vec::new();
+        for (begin, end) in begins.zip(starts.chain([self.values.len()])) {
+            if begin > 0 {
+                spans.push(FlightSpan { from: begin - 1, to: begin, n_flights: 0 });
+            }
+            let own = flight_spans(&self.values[begin..end]).into_iter();
+            let moved = |span: FlightSpan| FlightSpan {
+                from: span.from + begin,
+                to: span.to + begin,
+                ..span
+            };
+            spans.extend(own.map(moved));
+        }
+        spans
     }
 
     fn fault(&self, k: usize, message: impl std::fmt::Display) -> DataError {
@@ -161,10 +275,11 @@ impl BounceTimes {
     pub fn of(instants: Instants, rig: &Rig) -> Result<Self, DataError> {
         rig.check(&instants.name)?;
         check_flights(&instants, rig)?;
-        let spans = flight_spans(&instants.values);
+        let spans = instants.spans();
         let found = scatter(&instants.values, &spans);
         let (uncertainties, source) = uncertainties(&instants, rig, found.as_ref());
-        let mut warnings = left_out(&instants.values, &spans);
+        let mut warnings = instants.notes.clone();
+        warnings.extend(left_out(&instants, &spans));
         let speeds = Speeds::of(&instants, &spans, &uncertainties, rig, &mut warnings);
         let mut found_impacts: Vec<(Impact, Errors)> =
             speeds.first(&instants, rig).chain(speeds.others()).collect();
@@ -178,15 +293,17 @@ impl BounceTimes {
         });
         let (mut impacts, errors): (Vec<Impact>, Vec<Errors>) = found_impacts.into_iter().unzip();
         let last_drop = drops(&spans).last().map_or(0, |drop| drop[0].from);
-        let to_rest = |rest| to_rest(&instants, last_drop, &uncertainties, rest);
+        let drop = speeds.drop(rig);
+        let to_rest = |rest| to_rest(&instants, last_drop, &uncertainties, rest, drop);
         let restitution_to_rest = rig.rest.map(to_rest);
         let restitution_to_rest = restitution_to_rest.transpose()?;
         if impacts.is_empty()
-            && let (Some(restitution), Some(first)) = (restitution_to_rest, speeds.by_span.first())
-            && let Some(flight) = first
+            && let Some(restitution) = restitution_to_rest
+            && let Some((time, speed)) = match speeds.by_span.first() {
+                Some(flight) => flight.map(|flight| (flight.time, flight.landing_speed())),
+                None => drop.map(|(speed, _)| (instants.values[0], speed)),
+            }
         {
-            let time = flight.time;
-            let speed = flight.landing_speed();
             impacts.push(Impact { time, speed, restitution, contact_time: None });
             warnings.push("the restitution is a mean over all bounces until rest".to_string());
         }
@@ -285,7 +402,7 @@ impl BounceTimes {
     fn warn(&mut self, rig: &Rig) {
         let values = &self.instants.values;
         let longest = values.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        if longest < SHORT_FLIGHT {
+        if longest > 0.0 && longest < SHORT_FLIGHT {
             self.warnings.push(format!(
                 "the longest flight is {:.3} ms, a bounce of {:.1} um: is the time in seconds?",
                 1e3 * longest,
@@ -307,8 +424,13 @@ impl BounceTimes {
 fn check_flights(instants: &Instants, rig: &Rig) -> Result<(), DataError> {
     let values = &instants.values;
     let error = |message: String| DataError::new(&instants.name, message);
-    let is_enough =
-        values.len() >= 3 || values.len() == 2 && (rig.drop_height.is_some() || rig.rest.is_some());
+    let (height, rest) = (rig.drop_height.is_some(), rig.rest.is_some());
+    let is_enough = match values.len() {
+        0 => false,
+        1 => height && rest,
+        2 => height || rest,
+        _ => true,
+    };
     if !is_enough {
         let found = match values.len() {
             0 => "there is no instant".to_string(),
@@ -318,7 +440,7 @@ fn check_flights(instants: &Instants, rig: &Rig) -> Result<(), DataError> {
         let message = format!("{found}: a restitution needs two flights in a row, three instants");
         return Err(error(message).with_help(
             "list more bounces; with two of them --height of the drop or --rest, the time at which the ball comes to \
-             rest, suffices",
+             rest, suffices, and with one both",
         ));
     }
     let flights = || values.windows(2).map(|pair| pair[1] - pair[0]);
@@ -370,11 +492,11 @@ fn uncertainties(
     }
 }
 
-fn left_out(instants: &[f64], spans: &[FlightSpan]) -> Vec<String> {
+fn left_out(instants: &Instants, spans: &[FlightSpan]) -> Vec<String> {
     let mut warnings = Vec::new();
     for FlightSpan { from, to, n_flights } in spans.iter().copied() {
-        let [start, end] = [from, to].map(|k| instants[k]);
-        if n_flights == 0 {
+        let [start, end] = [from, to].map(|k| instants.values[k]);
+        if n_flights == 0 && !instants.starts.contains(&to) {
             warnings.push(format!(
                 "from {start:.4} s to {end:.4} s is no flight of the ball: another drop begins"
             ));
@@ -386,7 +508,7 @@ fn left_out(instants: &[f64], spans: &[FlightSpan]) -> Vec<String> {
             ));
         }
         for between in from + 1..to {
-            let extra = instants[between];
+            let extra = instants.values[between];
             warnings.push(format!("the instant {extra:.4} s is left out: it is no bounce"));
         }
     }
@@ -400,17 +522,24 @@ fn to_rest(
     first_index: usize,
     uncertainties: &[f64],
     rest: Measured,
+    drop: Option<(Measured, Measured)>,
 ) -> Result<Measured, DataError> {
-    let [first, second, ..] = instants.values[first_index..] else {
-        return Ok(Measured::exact(0.0));
-    };
-    let last = instants.values[instants.values.len() - 1];
+    let (first, last) = (instants.values[first_index], instants.values[instants.values.len() - 1]);
     if rest.value <= last {
         let message = format!("the ball is at rest at {} s and bounces at {last} s", rest.value);
         let help = "--rest is the time at which the ball comes to rest, on the clock of the record";
         return Err(DataError::new(&instants.name, message).with_help(help));
     }
-    let (flight, whole) = (second - first, rest.value - first);
+    let whole = rest.value - first;
+    let Some(second) = instants.values.get(first_index + 1) else {
+        // The first flight lasts 2et after a fall of t, so that e = T/(T + 2t).
+        let twice = drop.map_or(Measured::exact(0.0), |(_, twice)| twice);
+        let e = whole / (whole + twice.value);
+        let of_whole = rest.uncertainty.hypot(uncertainties[first_index]) / whole;
+        let uncertainty = e * (1.0 - e) * of_whole.hypot(twice.uncertainty / twice.value);
+        return Ok(Measured { value: e, uncertainty });
+    };
+    let flight = second - first;
     let e = 1.0 - flight / whole;
     let slopes = [1.0 / whole - flight / (whole * whole), 1.0 / whole, flight / (whole * whole)];
     let [of_first, of_second] = [first_index, first_index + 1].map(|k| uncertainties[k]);

@@ -155,6 +155,23 @@ impl Speeds {
         self.first.iter().filter_map(move |k| self.first_of(self.by_span[*k]?, instants, rig))
     }
 
+    /// Returns the landing speed (m/s) of a drop from the height of the rig, and that with more drag.
+    fn fall(&self, rig: &Rig) -> Option<(Measured, f64)> {
+        let (height, gravity) = (rig.drop_height?, rig.gravity());
+        let [landing, more] = self.flights.landing_after(height.value)?;
+        let [of_height, of_gravity] = [height, gravity].map(|it| 0.5 * it.uncertainty / it.value);
+        let uncertainty = (landing * of_height.hypot(of_gravity)).hypot(more - landing);
+        Some((Measured { value: landing, uncertainty }, more))
+    }
+
+    /// Returns the landing speed (m/s) of a drop from the height of the rig, and twice the time (s) in which gravity gives it.
+    pub fn drop(&self, rig: &Rig) -> Option<(Measured, Measured)> {
+        let (speed, _) = self.fall(rig)?;
+        let twice = 2.0 / self.flights.gravity();
+        let time = Measured { value: twice * speed.value, uncertainty: twice * speed.uncertainty };
+        Some((speed, time))
+    }
+
     /// Returns the impact between a drop from the height of the rig and a flight.
     fn first_of(
         &self,
@@ -162,8 +179,9 @@ impl Speeds {
         instants: &Instants,
         rig: &Rig,
     ) -> Option<(Impact, Errors)> {
+        let (speed, more) = self.fall(rig)?;
         let height = rig.drop_height?;
-        let [landing, more] = self.flights.landing_after(height.value)?;
+        let landing = speed.value;
         let e = flight.speeds[0] / landing;
         let slope = flight.slopes[0] / landing;
         let [of_height, of_gravity] =
@@ -176,10 +194,6 @@ impl Speeds {
             contact: -slope * flight.contact,
             drag: (flight.speeds[0] + flight.drag[0]) / more - e,
             drop: e * of_height.hypot(of_gravity),
-        };
-        let speed = Measured {
-            value: landing,
-            uncertainty: (landing * of_height.hypot(of_gravity)).hypot(more - landing),
         };
         let time = instants.values[flight.instants[0]];
         let restitution = errors.of(e);

@@ -57,7 +57,7 @@ impl Record {
             RecordKind::Bounces => {
                 BounceTimes::of(Instants::read(&columns)?, rig).map(Self::BounceTimes)
             }
-            RecordKind::Track => Track::of(Frames::read(&columns)?, rig).map(Self::Track),
+            RecordKind::Track => Track::of(Frames::read(&columns, rig)?, rig).map(Self::Track),
             RecordKind::Sound => Sound::of(Signal::read(&columns)?, rig).map(Self::Sound),
             RecordKind::Force => ForceRecord::of(Samples::read(&columns)?, rig).map(Self::Force),
         }

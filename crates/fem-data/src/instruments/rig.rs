@@ -33,6 +33,10 @@ pub struct Rig {
     pub sensor_mass: Option<Measured>,
     /// Approach speed of the first impact, m/s.
     pub speed: Option<Measured>,
+    /// Frames per second of a track whose frames are numbered.
+    pub frame_rate: Option<Measured>,
+    /// Length of a pixel of a track, m; by default gravity gives it.
+    pub scale: Option<Measured>,
     /// Relative standard uncertainty of the calibration of a force.
     pub force_uncertainty: Option<f64>,
 }
@@ -58,6 +62,8 @@ impl Rig {
             ("mass", self.mass),
             ("sensor-mass", self.sensor_mass),
             ("speed", self.speed),
+            ("frame-rate", self.frame_rate),
+            ("scale", self.scale),
         ];
         let exact = |value: f64| Measured::exact(value);
         let at_least_0 = [("contact-time", self.contact_time), ("rest", self.rest)]

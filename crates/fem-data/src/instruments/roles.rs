@@ -1,6 +1,6 @@
 //! The kinds of records, and the names of their columns.
 
-use crate::table::{DataError, Table};
+use crate::table::{DataError, Table, bare};
 
 /// The kinds of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +45,12 @@ impl RecordKind {
     /// The columns are those of no kind.
     pub(super) fn of(columns: &Table) -> Result<Self, DataError> {
         let has = |names: &[&str]| columns.find(names).map(|found| found.is_some());
-        if has(&TIMES)? {
+        let drops = columns.header().iter().any(|name| is_numbered(name, &NUMBERED));
+        if !has(&TIMES)? && (has(&EVENTS)? || has(&INTERVALS)? || drops) {
+            return Ok(Self::Bounces);
+        }
+        let is_timed = has(&TIMES)? || has(&FRAMES)?;
+        if is_timed {
             let second =
                 [(&FORCES[..], Self::Force), (&HEIGHTS, Self::Track), (&SIGNALS, Self::Sound)];
             for (names, kind) in second {
@@ -67,10 +72,54 @@ impl RecordKind {
 }
 
 /// Names of a column of instants.
-pub(super) const TIMES: [&str; 8] =
-    ["time", "t", "instant", "bounce", "impact", "bounce_time", "impact_time", "timestamp"];
+pub(super) const TIMES: [&str; 14] = [
+    "time",
+    "t",
+    "instant",
+    "bounce_time",
+    "impact_time",
+    "event_time",
+    "elapsed_time",
+    "timestamp",
+    "time_stamp",
+    "second",
+    "seconds",
+    "s",
+    "x_value",
+    "x-axis",
+];
+/// Names of a column of instants, or of the numbers of bounces.
+pub(super) const EVENTS: [&str; 2] = ["bounce", "impact"];
+/// Names of a column of flight times, or of the numbers of flights.
+pub(super) const INTERVALS: [&str; 9] = [
+    "interval",
+    "interval_#",
+    "interval_number",
+    "flight",
+    "flight_#",
+    "flight_number",
+    "flight_time",
+    "time_of_flight",
+    "duration",
+];
+/// Names of columns with a number each: the instants of a drop in a row, or drops side by side.
+pub(super) const NUMBERED: [&str; 10] =
+    ["start", "stop", "lap", "tap", "bounce", "impact", "t", "drop", "trial", "run"];
+/// Those whose columns are drops.
+pub(super) const DROPS: [&str; 3] = ["drop", "trial", "run"];
+
+/// Whether the name of a column is one of these and a number, `stop_2`; the first instant of a row is `start`.
+pub(super) fn is_numbered(header: &str, names: &[&str]) -> bool {
+    let bare = bare(header);
+    let name = bare.trim_end_matches(|c: char| c.is_ascii_digit() || c == '#');
+    (name.len() < bare.len() || name == "start") && names.contains(&name.trim_end_matches('_'))
+}
+
 /// Names of a column of the uncertainties of instants.
 pub(super) const TIME_UNCERTAINTIES: [&str; 3] = ["time_uncertainty", "t_uncertainty", "u(t)"];
+/// Names of a column of the numbers of frames.
+pub(super) const FRAMES: [&str; 6] =
+    ["frame", "frames", "frame_number", "frame_#", "image", "slice"];
 /// Names of a column of heights.
 pub(super) const HEIGHTS: [&str; 6] = ["height", "y", "position", "h", "z", "position_y"];
 /// Names of a column of the uncertainties of heights.
@@ -79,7 +128,7 @@ pub(super) const HEIGHT_UNCERTAINTIES: [&str; 4] =
 /// Names of a column of forces.
 pub(super) const FORCES: [&str; 3] = ["force", "f", "load"];
 /// Names of a column of amplitudes.
-pub(super) const SIGNALS: [&str; 12] = [
+pub(super) const SIGNALS: [&str; 27] = [
     "signal",
     "amplitude",
     "voltage",
@@ -88,8 +137,23 @@ pub(super) const SIGNALS: [&str; 12] = [
     "pressure",
     "acceleration",
     "sample",
-    "ch1",
-    "channel_1",
-    "channel_a",
+    "volt",
+    "volts",
     "value",
+    "ch1",
+    "ch2",
+    "ch3",
+    "ch4",
+    "channel_1",
+    "channel_2",
+    "channel_3",
+    "channel_4",
+    "channel_a",
+    "channel_b",
+    "channel_c",
+    "channel_d",
+    "1",
+    "2",
+    "3",
+    "4",
 ];

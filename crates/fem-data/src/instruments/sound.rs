@@ -185,9 +185,8 @@ impl Sound {
         let instants = Instants {
             name: signal.name.clone(),
             values,
-            lines: Vec::new(),
-            uncertainties: None,
             resolution: 1.0 / signal.rate,
+            ..Instants::default()
         };
         let mut bounces = BounceTimes::of(instants, rig)?;
         if n_clipped > 10 {

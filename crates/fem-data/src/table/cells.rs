@@ -33,6 +33,10 @@ impl Cells {
         self.lines.remove(0);
     }
 
+    pub fn n_columns(&self) -> usize {
+        self.n_columns
+    }
+
     pub fn n_rows(&self) -> usize {
         self.lines.len()
     }

@@ -19,7 +19,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 39] = [
+const ENDINGS: [UnitSuffix; 43] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -47,7 +47,8 @@ const ENDINGS: [UnitSuffix; 39] = [
     ending("_m", 1.0, [1, 0, 0]),
     ending("_kn", 1e3, [1, 1, -2]),
     ending("_mn", 1e-3, [1, 1, -2]),
-    ending("_n", 1.0, [1, 1, -2]),
+    ending(NEWTON, 1.0, [1, 1, -2]),
+    ending("_newton", 1.0, [1, 1, -2]),
     ending("_pa", 1.0, PRESSURE),
     ending("_kpa", 1e3, PRESSURE),
     ending("_mpa", 1e6, PRESSURE),
@@ -58,11 +59,23 @@ const ENDINGS: [UnitSuffix; 39] = [
     // A name that ends in `_min` may be a least value.
     ending("_minutes", 60.0, [0, 0, 1]),
     ending("_hours", 3600.0, [0, 0, 1]),
+    // The scale of a picture is not in its names.
+    ending("_px", 1.0, PIXELS),
+    ending("_pixel", 1.0, PIXELS),
+    ending("_pixels", 1.0, PIXELS),
     // Scales of temperature have an offset, which their reader adds.
     ending("_degc", 1.0, [0; 3]),
     ending("_degf", 1.0, [0; 3]),
     ending("_kelvin", 1.0, [0; 3]),
 ];
+
+/// Exponents of a length in pixels, which is of no dimension of a table.
+const PIXELS: [i32; 3] = [1, 0, 1];
+/// The ending of newton, which is a part of the name where no force can stand: `e_n`.
+const NEWTON: &str = "_n";
+/// Names of forces, and how others begin.
+const FORCES: [&str; 8] = ["f", "fn", "fmax", "fz", "fy", "f_max", "f_peak", "n"];
+const FORCE_WORDS: [&str; 3] = ["force", "load", "kraft"];
 
 /// A pound-force per square inch, Pa: lb g_n / in².
 const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
@@ -70,7 +83,7 @@ const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
 /// Names of units that the units of a case do not have, with their endings.
-const OTHER_UNITS: [(&str, &str); 27] = [
+const OTHER_UNITS: [(&str, &str); 33] = [
     ("rad/s", "_rad_s"),
     ("rad s^-1", "_rad_s"),
     ("rad·s⁻¹", "_rad_s"),
@@ -98,6 +111,12 @@ const OTHER_UNITS: [(&str, &str); 27] = [
     ("dyne/cm²", "_dyn_cm2"),
     ("dyne/cm2", "_dyn_cm2"),
     ("hr", "_hours"),
+    ("px", "_px"),
+    ("pixel", "_px"),
+    ("pixels", "_px"),
+    ("second", "_s"),
+    ("seconds", "_s"),
+    ("sec", "_s"),
 ];
 
 /// Returns the ending of a unit of an angle, a rate of phase or a temperature.
@@ -107,7 +126,30 @@ pub(super) fn other_ending(unit: &str) -> Option<&'static str> {
 
 /// Returns the unit in which a column's name ends.
 pub(super) fn ending_of(header: &str) -> Option<UnitSuffix> {
-    ENDINGS.into_iter().find(|ending| header.ends_with(ending.text))
+    ENDINGS.into_iter().find(|ending| ending.before(header).is_some())
+}
+
+impl UnitSuffix {
+    /// Whether the unit is a pixel.
+    pub fn is_pixel(self) -> bool {
+        self.dimension == PIXELS
+    }
+
+    /// Returns what is before this ending of a name.
+    fn before(self, header: &str) -> Option<&str> {
+        let name = header.strip_suffix(self.text)?;
+        (self.text != NEWTON || is_force(name)).then_some(name)
+    }
+}
+
+fn is_force(name: &str) -> bool {
+    FORCES.contains(&name) || FORCE_WORDS.iter().any(|word| name.contains(word))
+}
+
+/// Returns a name with the ending of a unit.
+pub(super) fn with_ending(name: &str, ending: &str) -> String {
+    let is_unclear = ending == NEWTON && !is_force(name);
+    format!("{name}{}", if is_unclear { "_newton" } else { ending })
 }
 
 /// Returns the ending of a unit, given by its factor to SI and its dimension (metre, kilogram, second, byte).
@@ -120,8 +162,8 @@ pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<UnitSuffix>
 }
 
 /// Returns a name without the ending of its unit.
-pub(super) fn bare(header: &str) -> &str {
-    ENDINGS.iter().find_map(|ending| header.strip_suffix(ending.text)).unwrap_or(header)
+pub(crate) fn bare(header: &str) -> &str {
+    ending_of(header).and_then(|ending| ending.before(header)).unwrap_or(header)
 }
 
 /// Returns a name without a unit in brackets, which it keeps if no column has that unit: `voltage [V]`.
@@ -132,11 +174,11 @@ pub(super) fn before_brackets(header: &str) -> &str {
 /// Returns a name and all names that it may be without a unit at its end: `speed_m_s` is `speed` in m/s, or
 /// `speed_m` in s.
 pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {
-    let bare = ENDINGS.iter().filter_map(|ending| header.strip_suffix(ending.text));
+    let bare = ENDINGS.into_iter().filter_map(|ending| ending.before(header));
     std::iter::once(header).chain(bare)
 }
 
-pub(super) const SPEEDS: [&str; 10] = [
+pub(super) const SPEEDS: [&str; 18] = [
     "speed",
     "approach_speed",
     "impact_speed",
@@ -147,9 +189,46 @@ pub(super) const SPEEDS: [&str; 10] = [
     "relative_velocity",
     "incident_velocity",
     "v",
+    "v_n",
+    "vn",
+    "normal_velocity",
+    "normal_speed",
+    "speed_before",
+    "velocity_before",
+    "v_before",
+    "v_in",
 ];
-pub(super) const RESTITUTIONS: [&str; 5] =
-    ["restitution", "coefficient_of_restitution", "restitution_coefficient", "cor", "e"];
+/// Names of columns of heights from which a body falls on the other one, most certain first.
+pub(super) const DROP_HEIGHTS: [&[&str]; 2] = [
+    &["drop_height", "release_height", "initial_height", "fall_height", "h0", "h_0", "h_drop"],
+    &["height", "h", "h1", "h_1"],
+];
+/// Names of columns of heights to which it rebounds.
+pub(super) const REBOUND_HEIGHTS: [&[&str]; 2] = [
+    &["rebound_height", "bounce_height", "return_height", "final_height", "h_rebound", "h2", "h_2"],
+    &["h1", "h_1"],
+];
+/// Names of columns of speeds after impacts.
+pub(super) const REBOUND_SPEEDS: [&str; 8] = [
+    "rebound_speed",
+    "rebound_velocity",
+    "speed_after",
+    "velocity_after",
+    "v_after",
+    "v_out",
+    "v_rebound",
+    "exit_velocity",
+];
+pub(super) const RESTITUTIONS: [&str; 8] = [
+    "restitution",
+    "coefficient_of_restitution",
+    "restitution_coefficient",
+    "cor",
+    "e",
+    "e_n",
+    "en",
+    "normal_restitution",
+];
 /// Uncertainties whose names do not say of what.
 const UNCERTAINTIES: [&str; 13] = [
     "uncertainty",
@@ -286,8 +365,9 @@ const MODULI: [&str; 11] = [
 /// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
 pub(super) fn column_names() -> Vec<&'static str> {
     let diameters = DIAMETERS.map(|[name, _]| name);
-    let all: [&[&str]; 9] = [
+    let all: [&[&str]; 10] = [
         &SPEEDS,
+        &["drop_height", "rebound_height", "rebound_speed"],
         &RESTITUTIONS,
         &["restitution_uncertainty"],
         &UNCERTAINTIES,

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 
 use fem_case::parse_quantity;
 
-use super::column_roles::{SIGNS, bare, ending_like, ending_of, other_ending, uncertainty_of};
+use super::column_roles::{
+    SIGNS, bare, ending_like, ending_of, other_ending, uncertainty_of, with_ending,
+};
 
 /// Returns the text of a file: UTF-16, recognised by its byte order mark or its zeros, UTF-8, or else Latin-1.
 pub fn decode(bytes: &[u8]) -> String {
@@ -73,7 +75,7 @@ pub(super) fn column_name(header: &str) -> String {
         let name = joined(name.trim().trim_end_matches(['/', ',']).trim_end_matches(" in"));
         let unit = unit.trim().trim_end_matches(after).trim();
         match ending_of_unit(unit) {
-            Some(ending) => return name + ending,
+            Some(ending) => return with_ending(&name, ending),
             None if is_none(unit) && !after.is_empty() => return name,
             None => {}
         }
@@ -98,7 +100,9 @@ pub(super) fn with_signs_named(header: Vec<String>) -> Vec<String> {
 /// Returns a value and its uncertainty from a cell such as `0.91 ± 0.02` or `30 ± 0.5 cm/s`, each with its unit; `None` for
 /// any other cell. An uncertainty in per cents is a share of the value.
 pub(super) fn value_and_uncertainty(cell: &str) -> Option<[String; 2]> {
-    let (value, uncertainty) = SIGNS.iter().find_map(|sign| cell.split_once(sign))?;
+    let Some((value, uncertainty)) = SIGNS.iter().find_map(|sign| cell.split_once(sign)) else {
+        return of_last_digits(cell);
+    };
     let (value, uncertainty) = (value.trim(), uncertainty.trim());
     let number = |text: &str| with_point(text).parse::<f64>().ok();
     let (Some(bare), None) = (number(value), number(uncertainty)) else {
@@ -114,10 +118,43 @@ pub(super) fn value_and_uncertainty(cell: &str) -> Option<[String; 2]> {
     Some([format!("{value} {unit}"), uncertainty.to_string()])
 }
 
+/// Returns the value and the uncertainty of `0.842(15)`, which is 0.842 ± 0.015.
+fn of_last_digits(cell: &str) -> Option<[String; 2]> {
+    let (value, digits) = cell.strip_suffix(')')?.split_once('(')?;
+    let decimals = value.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
+    with_point(value).parse::<f64>().ok()?;
+    let last =
+        digits.parse::<u32>().ok().map(|digits| f64::from(digits) / 10f64.powi(decimals as i32));
+    let uncertainty = last.map_or(digits.to_string(), |last| format!("{last:.decimals$}"));
+    with_point(&uncertainty).parse::<f64>().ok()?;
+    let uncertainty = if value.contains(',') { uncertainty.replace('.', ",") } else { uncertainty };
+    Some([value.to_string(), uncertainty])
+}
+
+/// Whether a cell names what is computed from the rows above it.
+pub(super) fn is_mean(cell: &str) -> bool {
+    const WORDS: [&str; 11] = [
+        "mean",
+        "average",
+        "avg",
+        "mittelwert",
+        "mittel",
+        "moyenne",
+        "median",
+        "std",
+        "sd",
+        "standard deviation",
+        "standardabweichung",
+    ];
+    WORDS.contains(&cell.trim_end_matches([':', '.']).to_lowercase().as_str())
+}
+
 /// Whether a cell below a name is a unit, `cm`, `[cm]` or `(cm)`.
 pub(super) fn is_unit(cell: &str) -> bool {
-    ending_of_unit(cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim())
-        .is_some()
+    // Of signals, whose unit does not matter.
+    const VOLTS: [&str; 4] = ["V", "mV", "Volt", "Volts"];
+    let unit = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim();
+    VOLTS.contains(&unit) || ending_of_unit(unit).is_some()
 }
 
 /// Returns the ending of a name that stands for a unit.
@@ -154,7 +191,7 @@ pub(super) fn with_units(
     };
     let is_row = units.iter().any(Option::is_some) && units.iter().zip(next).all(fits);
     let named = |(name, unit): (&String, &Option<&str>)| match unit {
-        Some(unit) if !name.ends_with(unit) => name.clone() + unit,
+        Some(unit) if !name.ends_with(unit) => with_ending(name, unit),
         _ => name.clone(),
     };
     is_row.then(|| header.iter().zip(&units).map(named).collect())

@@ -17,11 +17,12 @@ use super::column_roles::{
     bare, before_brackets, column_names, ending_of, is_key, readings, uncertainty_of,
 };
 use super::csv_dialect::{
-    column_name, is_missing, separator, tabs_for_blanks, value_and_uncertainty, with_point,
-    with_signs_named, with_units,
+    column_name, is_mean, is_missing, separator, tabs_for_blanks, value_and_uncertainty,
+    with_point, with_signs_named, with_units,
 };
 use super::data_error::{DataError, one_line};
 use super::preamble::without_preamble;
+use super::record_layouts::as_table;
 
 /// A table in memory with its cells as text, which are kept in one string.
 ///
@@ -45,6 +46,8 @@ pub struct Table {
     has_decimal_commas: bool,
     /// Columns that the user has renamed.
     named: Vec<usize>,
+    /// What of the text is left out.
+    left_out: Vec<String>,
 }
 
 /// The numbers of one column.
@@ -83,16 +86,16 @@ impl Table {
         self
     }
 
-    /// Parses a text; messages refer to it by `name`.
+    /// Parses a text; messages refer to it by `name`. Lines above the header, such as a title, are skipped.
     ///
     /// # Errors
     /// The text is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
-        Self::read(name, text, Rows::Even)
+        Self::read(name, text, 0, Rows::Even)
     }
 
-    /// Parses the record of an instrument: lines above the header (`mass_A`, settings of an oscilloscope) are skipped, and rows may
-    /// be longer or shorter than the header.
+    /// Parses the record of an instrument: the settings of an oscilloscope beside its samples are left out, and rows may be
+    /// longer or shorter than the header.
     ///
     /// # Errors
     /// Those of [`Table::parse`].
@@ -110,10 +113,12 @@ impl Table {
     /// # Ok::<(), fem_data::table::DataError>(())
     /// ```
     pub fn of_record(name: &str, text: &str) -> Result<Self, DataError> {
-        Self::read(name, &without_preamble(text.trim_start_matches('\u{feff}')), Rows::Ragged)
+        let (text, n_added) = as_table(text.trim_start_matches('\u{feff}'));
+        Self::read(name, &text, n_added, Rows::Ragged)
     }
 
-    fn read(name: &str, text: &str, kind: Rows) -> Result<Self, DataError> {
+    /// Reads a table below `n_added` lines that the text does not have.
+    fn read(name: &str, text: &str, n_added: u64, kind: Rows) -> Result<Self, DataError> {
         let name = one_line(name);
         let text = text.trim_start_matches('\u{feff}');
         if PACKED.iter().any(|mark| text.starts_with(mark)) {
@@ -121,7 +126,8 @@ impl Table {
                 DataError::new(&name, "this is a spreadsheet or another packed file, not text");
             return Err(error.with_help("save the table as CSV, and name that file"));
         }
-        let text = &*tabs_for_blanks(text);
+        let text = without_preamble(text, kind == Rows::Even);
+        let text = &*tabs_for_blanks(&text);
         let (separator, below) = separator(text);
         // The line `sep=;` becomes a comment, so that all lines keep their numbers.
         let text = match below.len() < text.len() {
@@ -131,6 +137,7 @@ impl Table {
         let (header, header_line) = named_columns(&name, &text, separator)?;
         let mut header = with_signs_named(header);
         let cells = cells(&name, &text, separator, (header.len(), kind))?;
+        let (cells, left_out) = without_means(cells, n_added);
         let mut cells = split_uncertainties(&mut header, cells);
         if cells.n_rows() > 1
             && let Some(names) = with_units(&header, &cells.row(0), &cells.row(1))
@@ -143,7 +150,8 @@ impl Table {
         }
         let has_decimal_commas = separator != b',';
         let named = Vec::new();
-        let table = Self { name, header, header_line, cells, has_decimal_commas, named };
+        let header_line = header_line.saturating_sub(n_added).max(1);
+        let table = Self { name, header, header_line, cells, has_decimal_commas, named, left_out };
         table.check_header()?;
         table.check_decimal_signs()?;
         Ok(table)
@@ -240,6 +248,11 @@ impl Table {
         &self.name
     }
 
+    /// Returns sentences about what of the text is left out.
+    pub fn left_out(&self) -> &[String] {
+        &self.left_out
+    }
+
     /// Returns the number of rows.
     pub fn n_rows(&self) -> usize {
         self.cells.n_rows()
@@ -278,7 +291,9 @@ impl Table {
             (Some(first), Some(second)) => {
                 let [first, second] = [first, second].map(|column| &self.header[column]);
                 let message = format!("the columns {first} and {second} mean the same");
-                Err(self.header_fault(message).with_help("keep one of the two"))
+                let help =
+                    format!("keep one of the two, or choose, such as --columns NAME={first}");
+                Err(self.header_fault(message).with_help(help))
             }
             (first, _) => Ok(first),
         }
@@ -428,6 +443,11 @@ impl Table {
         Ok(NumberColumn { values, resolution })
     }
 
+    /// Whether a column is in pixels.
+    pub(crate) fn is_in_pixels(&self, column: usize) -> bool {
+        ending_of(&self.header[column]).is_some_and(|ending| ending.is_pixel())
+    }
+
     /// Returns the numbers of a column whatever its dimension, as of a signal whose unit does not matter.
     ///
     /// # Errors
@@ -548,6 +568,21 @@ fn cells(
         }
         cells.push(line, record.iter());
     }
+}
+
+/// Returns the cells without the rows below a series that spreadsheets compute, and a sentence about each.
+fn without_means(cells: Cells, n_added: u64) -> (Cells, Vec<String>) {
+    let mut rest = Cells::new(cells.n_columns());
+    let mut left_out = Vec::new();
+    for row in 0..cells.n_rows() {
+        let values = cells.row(row);
+        let line = cells.line(row).saturating_sub(n_added);
+        match values.iter().find(|cell| !cell.is_empty()).filter(|cell| is_mean(cell)) {
+            Some(word) => left_out.push(format!("line {line} is left out: {word}")),
+            None => rest.push(line, values.iter().map(String::as_str)),
+        }
+    }
+    (rest, left_out)
 }
 
 /// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.

@@ -21,11 +21,13 @@ mod moduli;
 mod pairs;
 mod preamble;
 mod quantity;
+mod record_layouts;
 mod restitution_table;
 mod restitutions;
 mod sweep_table;
 mod temperature_blocks;
 
+pub(crate) use column_roles::bare;
 pub use csv_dialect::decode;
 pub use csv_table::{NumberColumn, Table};
 pub use data_error::DataError;

@@ -406,7 +406,7 @@ impl ModulusTable {
         let whole = Table::parse(name, text);
         let found = match whole {
             Ok(table) if table.header().iter().any(|it| role(it).is_some()) => Ok(table),
-            whole => Table::parse(name, &without_preamble(text)).or(whole),
+            whole => Table::parse(name, &without_preamble(text, false)).or(whole),
         };
         if found.as_ref().is_ok_and(has_temperature) {
             return found;

@@ -2,27 +2,28 @@
 
 use std::borrow::Cow;
 
-use super::csv_dialect::{is_missing, is_unit, with_point};
+use super::csv_dialect::{is_missing, is_unit, value_and_uncertainty, with_point};
 
 /// Lines in which the first row of numbers is searched.
 const SEARCHED: usize = 500;
 
+/// The separator of the cells of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Separator {
+pub(super) enum Separator {
     Blanks,
     One(char),
 }
 
 impl Separator {
     /// Returns the separator of a row of numbers.
-    fn of(line: &str) -> Self {
+    pub fn of(line: &str) -> Self {
         match [';', '\t', ','].into_iter().find(|separator| line.contains(*separator)) {
             Some(separator) => Self::One(separator),
             None => Self::Blanks,
         }
     }
 
-    fn cells(self, line: &str) -> impl Iterator<Item = &str> {
+    pub fn cells(self, line: &str) -> impl Iterator<Item = &str> {
         let (by_blanks, by_one) = match self {
             Self::Blanks => (Some(line.split_whitespace()), None),
             Self::One(separator) => (None, Some(line.split(separator))),
@@ -32,12 +33,13 @@ impl Separator {
     }
 }
 
-fn is_number(cell: &str) -> bool {
-    with_point(cell).parse::<f64>().is_ok()
+pub(super) fn is_number(cell: &str) -> bool {
+    with_point(cell).parse::<f64>().is_ok() || value_and_uncertainty(cell).is_some()
 }
 
 /// Returns the text with the lines above the header made comments, so that all lines keep their numbers.
-pub(super) fn without_preamble(text: &str) -> Cow<'_, str> {
+/// With `only_titles`, lines with as many cells as the header are kept.
+pub(super) fn without_preamble(text: &str, only_titles: bool) -> Cow<'_, str> {
     let lines: Vec<&str> = text.lines().take(SEARCHED).collect();
     let is_row = |line: &str| {
         let mut cells = Separator::of(line).cells(line).filter(|cell| !cell.is_empty()).peekable();
@@ -54,19 +56,27 @@ pub(super) fn without_preamble(text: &str) -> Cow<'_, str> {
         return text.into();
     };
     let separator = Separator::of(lines[first]);
-    let is_header = |k: &usize| {
-        n_cells(lines[*k], separator) == n_cells(lines[first], separator)
-            && !lines[*k].trim().is_empty()
-            && !lines[*k].starts_with('#')
-            && !is_row(lines[*k])
+    // Rows may end in empty cells, and a header in the name of a column of comments.
+    let n_used = |line: &str| {
+        let used = |(k, cell): (usize, &str)| (!cell.is_empty()).then_some(k + 1);
+        separator.cells(line).enumerate().filter_map(used).last().unwrap_or(0)
     };
-    let Some(last) = first.checked_sub(1).filter(is_header) else { return text.into() };
+    let is_comment = |line: &str| line.starts_with('#') || line.trim().is_empty();
+    let above = |k: usize| (0..k).rev().find(|above| !is_comment(lines[*above]));
+    let is_header = |k: &usize| {
+        n_cells(lines[*k], separator) >= n_used(lines[first]).min(2) && !is_row(lines[*k])
+    };
+    let is_of_names = |k: &usize| !separator.cells(lines[*k]).any(is_number);
+    let last = above(first).filter(is_header).filter(is_of_names);
+    let Some(last) = last else { return text.into() };
     let is_units = separator.cells(lines[last]).any(is_unit)
         && separator.cells(lines[last]).all(|cell| is_missing(cell) || is_unit(cell));
-    let above = last.checked_sub(1).filter(|above| is_units && is_header(above));
-    let header = above.unwrap_or(last);
-    let is_comment = |line: &&str| line.starts_with('#') || line.trim().is_empty();
-    if lines[..header].iter().all(is_comment) {
+    let names = above(last).filter(|above| is_units && is_header(above));
+    let header = names.unwrap_or(last);
+    let is_kept =
+        |line: &&str| only_titles && n_cells(line, separator) >= n_cells(lines[header], separator);
+    let mut above = lines[..header].iter().filter(|line| !is_comment(line)).peekable();
+    if above.peek().is_none() || above.any(is_kept) {
         return text.into();
     }
     let commented = |(k, line): (usize, &str)| match k < header {

@@ -41,6 +41,8 @@ pub enum Kind {
     Modulus,
     /// A temperature, K.
     Temperature,
+    /// A rate, 1/s.
+    Rate,
 }
 
 /// The reason why a text is no measured quantity.
@@ -74,6 +76,7 @@ impl Kind {
             Self::Density => [-3, 1, 0, 0],
             Self::Modulus => [-1, 1, -2, 0],
             Self::Temperature => [0; 4],
+            Self::Rate => [0, 0, -1, 0],
         }
     }
 
@@ -87,6 +90,7 @@ impl Kind {
             Self::Density => "a density, such as '7800 kg/m^3'",
             Self::Modulus => "a modulus, such as '5 GPa'",
             Self::Temperature => "a temperature, such as '23 degC'",
+            Self::Rate => "a rate, such as '240 Hz'",
             Self::Angle => "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'",
         }
     }

@@ -1,7 +1,12 @@
 //! Reads restitutions over speeds from a table of a measurement or a sweep, of one pair of bodies or of several pairs
 //! that the table distinguishes by their diameters.
+//!
+//! A body that falls from the height h₀ and rebounds to h₁ has v = √(2 g h₀) and e = √(h₁/h₀), without air drag.
 
-use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, is_key, uncertainties};
+use super::column_roles::{
+    CONTACT_TIMES, DIAMETERS, DROP_HEIGHTS, REBOUND_HEIGHTS, REBOUND_SPEEDS, RESTITUTIONS, SPEEDS,
+    is_key, uncertainties, uncertainty_of,
+};
 use super::csv_table::Table;
 use super::data_error::DataError;
 use super::pairs::MeasuredPairs;
@@ -10,6 +15,8 @@ use super::restitutions::{MAX_RESTITUTION, MAX_UNCERTAINTY, Restitutions, Uneven
 use super::sweep_table::COLUMNS;
 use fem_case::Scene;
 use fem_collision::Status;
+
+use crate::instruments::cradle::STANDARD_GRAVITY;
 use fem_material::engineering::number;
 
 /// Optional columns; a name that nearly equals one of them is an error.
@@ -116,6 +123,7 @@ fn read_rows(
         lines: rows.iter().map(|row| table.line(*row)).collect(),
         points,
         unread,
+        notes: [table.left_out(), &columns.notes()].concat(),
     };
     Ok((restitutions, rows))
 }
@@ -161,13 +169,48 @@ struct Wanted<'a> {
     pub names: &'a [&'a str],
 }
 
+/// What a column says of an impact or of its rebound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Said {
+    Speed,
+    Height,
+    Restitution,
+}
+
+impl Said {
+    fn dimension(self) -> [i32; 3] {
+        match self {
+            Self::Speed => SPEED,
+            Self::Height => LENGTH,
+            Self::Restitution => NUMBER,
+        }
+    }
+
+    /// Returns the power of the number to which the speed is proportional.
+    fn power(self) -> f64 {
+        if self == Self::Height { 0.5 } else { 1.0 }
+    }
+
+    /// Returns the speed at a height, m/s, or the number itself.
+    fn speed(self, value: f64) -> f64 {
+        match self {
+            Self::Height => (2.0 * STANDARD_GRAVITY * value).sqrt(),
+            Self::Speed | Self::Restitution => value,
+        }
+    }
+}
+
 /// The columns of a table that are read.
 struct Columns {
-    /// Speeds whose sum is the approach speed.
+    /// Speeds whose sum is the approach speed, or a height.
     speeds: Vec<usize>,
+    /// What they are.
+    approach: Said,
     /// Speeds of bodies that have no column, m/s.
     other_speed: f64,
     restitution: usize,
+    /// What it is.
+    rebound: Said,
     uncertainty: Option<usize>,
     contact_time: Option<usize>,
     /// Whether the collision of a sweep's member is complete.
@@ -185,17 +228,43 @@ impl Columns {
             table.header().iter().position(|header| *header == name)
         });
         let own = [scene.bodies()[0].velocity(), -scene.bodies()[1].velocity()];
+        let height = |names: [&[&str]; 2], other: Option<usize>| {
+            let found = names.map(|names| table.find(names));
+            let found = found.into_iter().find(|it| !matches!(it, Ok(None))).unwrap_or(Ok(None));
+            found.map(|found| found.filter(|column| Some(*column) != other))
+        };
+        let mut approach = Said::Speed;
         let (speeds, other_speed) = if swept == [None, None] {
-            (vec![table.require(&SPEEDS, "speed_m_s, or speed_cm_s")?], 0.0)
+            let column = match (table.find(&SPEEDS)?, height(DROP_HEIGHTS, None)?) {
+                (Some(speed), _) => speed,
+                (None, Some(height)) => {
+                    approach = Said::Height;
+                    height
+                }
+                (None, None) => table.require(&SPEEDS, "speed_m_s, or speed_cm_s")?,
+            };
+            (vec![column], 0.0)
         } else {
             let fixed = swept.iter().zip(own).filter(|(column, _)| column.is_none());
             (swept.into_iter().flatten().collect(), fixed.map(|(_, speed)| speed).sum())
+        };
+        let after = [
+            (table.find(&RESTITUTIONS)?, Said::Restitution),
+            (table.find(&REBOUND_SPEEDS)?, Said::Speed),
+            (height(REBOUND_HEIGHTS, speeds.first().copied())?, Said::Height),
+        ];
+        let after = after.into_iter().find_map(|(column, said)| Some((column?, said)));
+        let (restitution, rebound) = match after {
+            Some(found) => found,
+            None => (table.require(&RESTITUTIONS, "restitution")?, Said::Restitution),
         };
         check_same_bodies(table, &[&speeds[..], wanted.others].concat())?;
         Ok(Self {
             speeds,
             other_speed,
-            restitution: table.require(&RESTITUTIONS, "restitution")?,
+            approach,
+            restitution,
+            rebound,
             uncertainty: table.find(uncertainties())?,
             contact_time: match wanted.contact_times {
                 true => table.find(&CONTACT_TIMES)?,
@@ -205,6 +274,14 @@ impl Columns {
             status: table.find(&[STATUS])?,
             accepted: table.find(&[ACCEPTED_STATUS])?,
         })
+    }
+
+    /// Returns what follows from the kinds of columns.
+    pub fn notes(&self) -> Vec<String> {
+        let has_height = [self.approach, self.rebound].contains(&Said::Height);
+        let note =
+            "speeds follow from heights, sqrt(2 g h) with 9.80665 m/s²: air drag is left out";
+        has_height.then(|| note.to_string()).into_iter().collect()
     }
 
     pub fn read(&self) -> Vec<usize> {
@@ -217,7 +294,7 @@ impl Columns {
     /// Whether a row has a result: a sweep has rows of failed members, a measurement rows without a speed or a restitution.
     pub fn has_result(&self, table: &Table, row: usize) -> bool {
         // A first cell that is no number may be the unit of the column: it is an error.
-        if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed)) {
+        if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed, self.approach)) {
             return true;
         }
         let is_complete = |complete: usize| table.text(row, complete) != "false";
@@ -229,14 +306,25 @@ impl Columns {
     pub fn point(&self, table: &Table, row: usize) -> Result<Point, DataError> {
         let mut speed = self.other_speed;
         for column in &self.speeds {
-            speed += table.number(row, *column, SPEED)?;
+            let value = table.number(row, *column, self.approach.dimension())?;
+            if self.approach == Said::Height && value <= 0.0 {
+                let help = "a height of a drop is greater than 0";
+                return Err(table.cell_fault(row, *column, value, help));
+            }
+            speed += self.approach.speed(value);
         }
         if speed <= 0.0 {
             return Err(table
                 .fault(row, format!("the approach speed is {} m/s", number(speed, 5)))
                 .with_help("it must be greater than 0"));
         }
-        let restitution = table.number(row, self.restitution, NUMBER)?;
+        let rebound = table.number(row, self.restitution, self.rebound.dimension())?;
+        let restitution = match self.rebound {
+            Said::Restitution => rebound,
+            // A speed after the impact may have the opposite sign.
+            Said::Speed => rebound.abs() / speed,
+            Said::Height => self.rebound.speed(rebound) / speed,
+        };
         if !(0.0..=MAX_RESTITUTION).contains(&restitution) {
             return Err(table
                 .fault(row, format!("the restitution is {}", number(restitution, 5)))
@@ -258,13 +346,38 @@ impl Columns {
         }
         let restitution_uncertainty = match self.uncertainty {
             Some(column) => uncertainty(table, row, column)?,
-            None => None,
+            None => self.derived_uncertainty(table, row, restitution)?,
         };
         let contact_time = match self.contact_time {
             Some(column) => positive(table, row, column, TIME)?,
             None => None,
         };
         Ok(Point { speed, restitution, restitution_uncertainty, contact_time })
+    }
+
+    /// Returns the standard uncertainty of a restitution that follows from heights or speeds with uncertainties.
+    fn derived_uncertainty(
+        &self,
+        table: &Table,
+        row: usize,
+        restitution: f64,
+    ) -> Result<Option<f64>, DataError> {
+        if self.rebound == Said::Restitution {
+            return Ok(None);
+        }
+        let mut relative = None;
+        let approach = self.speeds.iter().map(|column| (*column, self.approach));
+        for (column, said) in approach.chain([(self.restitution, self.rebound)]) {
+            let Some(own) = table.position(&uncertainty_of(&table.header()[column])) else {
+                continue;
+            };
+            if let Some(found) = positive(table, row, own, said.dimension())? {
+                let value = table.number(row, column, said.dimension())?;
+                let share = said.power() * found / value.abs();
+                relative = Some(share.hypot(relative.unwrap_or(0.0)));
+            }
+        }
+        Ok(relative.map(|relative: f64| relative * restitution))
     }
 }
 
@@ -274,8 +387,8 @@ fn is_bound(table: &Table, row: usize, status: usize) -> bool {
 }
 
 /// Whether the first cell of a column of speeds has a text that is no speed.
-fn is_text(table: &Table, column: usize) -> bool {
-    !table.is_missing(0, column) && table.number(0, column, SPEED).is_err()
+fn is_text(table: &Table, column: usize, said: Said) -> bool {
+    !table.is_missing(0, column) && table.number(0, column, said.dimension()).is_err()
 }
 
 /// Rejects a sweep that varies columns other than `may_vary`.

@@ -59,6 +59,8 @@ pub struct Restitutions {
     pub uneven: Option<UnevenUncertainties>,
     /// Columns that are not read.
     pub unread: Vec<String>,
+    /// What of the table is left out, or follows from it.
+    pub notes: Vec<String>,
 }
 
 /// The treatment of an uncertainty that some rows have and others lack.
@@ -92,8 +94,9 @@ impl Restitutions {
     pub fn of(name: &str, points: &[(f64, f64)]) -> Self {
         let points = points.iter().map(|(speed, e)| Point::new(*speed, *e)).collect();
         let name = name.to_string();
-        let (lines, bounds, unread) = (Vec::new(), Vec::new(), Vec::new());
-        Self { name, points, lines, n_left_out: 0, bounds, uneven: None, unread }
+        let (lines, bounds) = (Vec::new(), Vec::new());
+        let (unread, notes) = (Vec::new(), Vec::new());
+        Self { name, points, lines, n_left_out: 0, bounds, uneven: None, unread, notes }
     }
 
     /// Gives all points the same standard uncertainty.
@@ -126,7 +129,7 @@ impl Restitutions {
 
     /// Returns warnings about rows and columns that are not used.
     pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let mut warnings = self.notes.clone();
         let rows = |n: usize| if n == 1 { "1 row".to_string() } else { format!("{n} rows") };
         if self.n_left_out > 0 {
             let rows = rows(self.n_left_out);

@@ -189,6 +189,9 @@ fn tables_of_papers_and_spreadsheets_are_read() {
         ("v,e\n30 ± 0.5 cm/s,0.5 ± 10 %\n40 ± 0.5 cm/s,0.4 ± 10 %\n", 0.3, Some(0.05)),
         ("v (m/s);COR (%)\n0,5;91 ± 2\n1;90 ± 2\n", 0.5, Some(0.02)),
         ("v, m/s;e\n0,5;0,91\n1;0,9\n", 0.5, None),
+        ("v,e\n0.5,0.91(2)\n1,0.90(2)\n", 0.5, Some(0.02)),
+        ("Glass on glass\nv,e\n0.5,0.91\n1,0.90\n", 0.5, None),
+        ("Glass, dry\nv_n;e_n\n0,5;0,91 ± 0,02\n1;0,90 ± 0,02\n", 0.5, Some(0.02)),
     ] {
         let table = Table::parse("e.csv", text).unwrap();
         let data = Restitutions::read(&table, ball().scene()).unwrap();
@@ -203,6 +206,40 @@ fn tables_of_papers_and_spreadsheets_are_read() {
     let table = table.renamed(&[("restitution", "bounce")]).unwrap();
     let data = Restitutions::read(&table, ball().scene()).unwrap();
     assert_eq!(data.points[0].restitution_uncertainty, Some(0.02));
+}
+
+/// Drop and rebound heights, and speeds before and after, give speeds and restitutions with their uncertainties.
+#[test]
+fn heights_and_speeds_after_give_restitutions() {
+    let fall = |height: f64| (2.0 * 9.80665 * height).sqrt();
+    let e = (49.6f64 / 65.0).sqrt();
+    let of_heights = 0.5 * e * (0.5f64 / 49.6).hypot(0.25 / 65.0);
+    for (text, speed, restitution, uncertainty) in [
+        ("drop height (cm),rebound height (cm)\n65,49.6\n55,42.1\n", fall(0.65), e, None),
+        ("h0 [m],h1 [m]\n0.65,0.496\n0.55,0.421\n", fall(0.65), e, None),
+        ("h1 [m],h2 [m]\n0.65,0.496\n0.55,0.421\n", fall(0.65), e, None),
+        (
+            "h0,h1\n65 ± 0.25 cm,49.6 ± 0.5 cm\n55 ± 0.25 cm,42 ± 0.5 cm\n",
+            fall(0.65),
+            e,
+            Some(of_heights),
+        ),
+        ("Drop height (mm),COR\n50,0.68\n100,0.64\n", fall(0.05), 0.68, None),
+        ("speed before,speed after\n2 ± 0.02 m/s,-1.5\n3 ± 0.03 m/s,2\n", 2.0, 0.75, Some(0.0075)),
+    ] {
+        let table = Table::parse("e.csv", text).unwrap();
+        let data = Restitutions::read(&table, ball().scene()).unwrap();
+        let point = data.points[0];
+        assert!((point.speed - speed).abs() < 1e-12, "{text}: {point:?}");
+        assert!((point.restitution - restitution).abs() < 1e-12, "{text}: {point:?}");
+        let found = point.restitution_uncertainty;
+        let is_same = |(a, b): (f64, f64)| (a - b).abs() < 1e-12;
+        assert!(found.zip(uncertainty).map_or(found == uncertainty, is_same), "{text}: {found:?}");
+        let has_note = data.warnings().iter().any(|it| it.contains("air drag is left out"));
+        assert_eq!(has_note, !text.contains("speed"), "{:?}", data.warnings());
+    }
+    let table = Table::parse("e.csv", "drop height,rebound height\n0,0\n").unwrap();
+    assert!(Restitutions::read(&table, ball().scene()).is_err());
 }
 
 /// A restitution above 1 is warned of in the words of the cradle, with its line; above 1.2 it is an error.

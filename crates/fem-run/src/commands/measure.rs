@@ -83,6 +83,12 @@ struct RigArguments {
     /// Approach speed of the first impact, for a record of the force; --height of a drop gives it too
     #[arg(long, value_name = "SPEED", value_parser = of_kind(Kind::Speed))]
     speed: Option<Measured>,
+    /// Frames per second of a track with a column of frames
+    #[arg(long, value_name = "RATE", value_parser = of_kind(Kind::Rate))]
+    frame_rate: Option<Measured>,
+    /// Length of a pixel of a track in pixels [default: by gravity]
+    #[arg(long, value_name = "LENGTH", value_parser = of_kind(Kind::Length))]
+    scale: Option<Measured>,
     /// Relative standard uncertainty of the calibration of the force, such as '1 %'
     #[arg(long, value_name = "SHARE", value_parser = parse_share)]
     force_uncertainty: Option<f64>,
@@ -111,6 +117,8 @@ impl RigArguments {
             mass: self.mass,
             sensor_mass: self.sensor_mass,
             speed: self.speed,
+            frame_rate: self.frame_rate,
+            scale: self.scale,
             force_uncertainty: self.force_uncertainty,
         }
     }
@@ -210,6 +218,13 @@ fn of_track(track: &Track, rig: &Rig) -> String {
     let gravity = match track.has_fitted_gravity {
         true => format!("fitted g: {}", show_measured(track.gravity, "m/s²")),
         false => format!("g: {:.4} m/s²", track.gravity.value),
+    };
+    let gravity = match track.pixel.filter(|_| rig.scale.is_none()) {
+        Some(Measured { value, uncertainty }) => {
+            let pixel = Measured { value: 1e3 * value, uncertainty: 1e3 * uncertainty };
+            format!("scale by gravity: {} per pixel", show_measured(pixel, "mm"))
+        }
+        None => gravity,
     };
     let mut text = format!(
         "{} frames, {} flights; {gravity}; scatter of a frame: {}\n",

@@ -1,8 +1,9 @@
 //! The frames of a track, and what they show without a fit: their noise, wrong ones among them, and the lowest ones.
 
 use crate::estimate::{deviation_by_median, median};
-use crate::instruments::roles::{HEIGHT_UNCERTAINTIES, HEIGHTS, TIMES};
-use crate::table::{DataError, Table};
+use crate::instruments::rig::Rig;
+use crate::instruments::roles::{FRAMES, HEIGHT_UNCERTAINTIES, HEIGHTS, TIMES};
+use crate::table::{DataError, Measured, Table};
 
 /// A frame this many times the noise and the usual curvature above its neighbours is wrong.
 const SPIKE: f64 = 10.0;
@@ -16,8 +17,10 @@ pub struct Frames {
     pub name: String,
     /// Increasing times, s.
     pub times: Vec<f64>,
-    /// Heights, m, upwards.
+    /// Heights, m or pixels, upwards.
     pub heights: Vec<f64>,
+    /// Whether heights are in pixels.
+    pub in_pixels: bool,
     /// Weights of the frames, the inverse squares of relative uncertainties.
     pub(super) weights: Vec<f64>,
 }
@@ -27,19 +30,35 @@ impl Frames {
     ///
     /// # Errors
     /// A column is missing, a cell is no number, or the times do not increase.
-    pub fn read(columns: &Table) -> Result<Self, DataError> {
-        let time = columns.require(&TIMES, "time_s")?;
+    pub fn read(columns: &Table, rig: &Rig) -> Result<Self, DataError> {
+        let times = match (columns.find(&TIMES)?, columns.find(&FRAMES)?, rig.frame_rate) {
+            (None, Some(column), Some(Measured { value: rate, .. })) => {
+                columns.plain(column)?.values.into_iter().map(|frame| frame / rate).collect()
+            }
+            (None, Some(column), None) => {
+                let name = &columns.header()[column];
+                let error =
+                    columns.header_fault(format!("{name} counts frames, whose rate is not given"));
+                return Err(error.with_help("give --frame-rate, such as --frame-rate '240 Hz'"));
+            }
+            _ => columns.numbers(columns.require(&TIMES, "time_s")?, [0, 0, 1])?.values,
+        };
         let height = columns.require(&HEIGHTS, "y_m or y_cm")?;
-        let [times, heights] =
-            [columns.numbers(time, [0, 0, 1])?.values, columns.numbers(height, [1, 0, 0])?.values];
+        let in_pixels = columns.is_in_pixels(height);
+        let lengths = |column: usize| match in_pixels {
+            true => columns.plain(column),
+            false => columns.numbers(column, [1, 0, 0]),
+        };
+        let heights = lengths(height)?.values;
         let uncertainties = match columns.find(&HEIGHT_UNCERTAINTIES)? {
-            Some(column) => columns.numbers(column, [1, 0, 0])?.values,
+            Some(column) => lengths(column)?.values,
             None => vec![1.0; times.len()],
         };
         let mut frames = Self {
             name: columns.name().to_string(),
             times: Vec::new(),
             heights: Vec::new(),
+            in_pixels,
             weights: Vec::new(),
         };
         for (k, (time, height)) in times.into_iter().zip(heights).enumerate() {
@@ -123,8 +142,15 @@ impl Frames {
             name: self.name.clone(),
             times: kept(t),
             heights: kept(y),
+            in_pixels: self.in_pixels,
             weights: kept(&self.weights),
         }
+    }
+
+    /// Returns the frames with heights in metres by the length of a pixel, m.
+    pub(super) fn scaled(&self, pixel: f64) -> Self {
+        let heights = self.heights.iter().map(|y| pixel * y).collect();
+        Self { heights, in_pixels: false, ..self.clone() }
     }
 
     pub(super) fn upside_down(&self) -> Self {

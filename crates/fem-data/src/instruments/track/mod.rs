@@ -38,6 +38,10 @@ pub use parabola::TrackFlight;
 
 /// Fewest frames of a flight.
 const FEWEST_FRAMES: usize = 5;
+/// Length of a pixel from which the search of the scale begins, m.
+const FIRST_PIXEL: f64 = 1e-3;
+/// Rounds in which the scale settles; in vacuum the first one has it.
+const SCALE_ROUNDS: usize = 3;
 
 /// The restitutions of a tracked ball.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +50,8 @@ pub struct Track {
     pub frames: Frames,
     /// The flights that are used.
     pub flights: Vec<TrackFlight>,
+    /// Length of a pixel, m, if the heights are in pixels.
+    pub pixel: Option<Measured>,
     /// Acceleration of free fall of the parabolas, m/s².
     pub gravity: Measured,
     /// Whether it is fitted.
@@ -70,6 +76,22 @@ impl Track {
     /// The track has no bounce with flights on both sides, its scale is not in metres, or a value of the rig is out of range.
     pub fn of(frames: Frames, rig: &Rig) -> Result<Self, DataError> {
         rig.check(&frames.name)?;
+        let relative = |it: Measured| it.uncertainty / it.value;
+        let of_rate = rig.frame_rate.map_or(0.0, relative);
+        if !frames.in_pixels {
+            return Self::of_heights(frames, rig, of_rate);
+        }
+        let pixel = match rig.scale {
+            Some(scale) => scale,
+            None => by_gravity(&frames, rig)?,
+        };
+        let spread = of_rate.hypot(relative(pixel));
+        let track = Self::of_heights(frames.scaled(pixel.value), rig, spread)?;
+        Ok(Self { pixel: Some(pixel), ..track })
+    }
+
+    /// Returns the restitutions of a track in metres; `spread` is the relative uncertainty of its scale.
+    fn of_heights(frames: Frames, rig: &Rig, spread: f64) -> Result<Self, DataError> {
         let n_all = frames.times.len();
         let (mut frames, minima, rise) = oriented(frames)?;
         let mut warnings = Vec::new();
@@ -102,7 +124,7 @@ impl Track {
             ));
         }
         fit.find_distortion(&frames, rig, &mut warnings);
-        let scale = fit.check_scale(&frames.name, rig, &mut warnings)?;
+        let scale = fit.check_scale(&frames.name, rig, &mut warnings)?.hypot(spread);
         let mut impacts: Vec<Impact> =
             (0..minima.len()).filter_map(|k| fit.impact(k, scale)).collect();
         impacts.retain(|impact| match impact.impossible() {
@@ -126,6 +148,7 @@ impl Track {
         Ok(Self {
             frames,
             flights,
+            pixel: None,
             gravity,
             has_fitted_gravity,
             noise,
@@ -135,6 +158,15 @@ impl Track {
             warnings,
             air,
         })
+    }
+
+    /// Returns the acceleration of the parabolas, m/s², if it is fitted.
+    fn fitted_gravity(frames: Frames, rig: &Rig) -> Option<Measured> {
+        let (frames, minima, rise) = oriented(frames).ok()?;
+        let mut flights = flights(&frames, &minima, rise, rig, &mut Vec::new());
+        leave_outliers_out(&frames, &mut flights);
+        let fit = Fit::of(&frames, &flights, &minima, rig);
+        fit.has_fitted_gravity.then_some(fit.gravity)
     }
 
     /// Returns the height of a flight at a time (s), m.
@@ -152,6 +184,8 @@ impl Track {
         };
         json!({
             "frames": self.frames.times.len(),
+            "pixel_m": self.pixel.map(|it| it.value),
+            "pixel_uncertainty_m": self.pixel.map(|it| it.uncertainty),
             "flights_s": self.flights.iter().map(ends).collect::<Value>(),
             "fitted_gravity_m_s2": self.has_fitted_gravity.then_some(self.gravity.value),
             "fitted_gravity_uncertainty_m_s2": self.has_fitted_gravity.then_some(self.gravity.uncertainty),
@@ -161,4 +195,23 @@ impl Track {
             "has_air_drag": self.air.is_some(),
         })
     }
+}
+
+/// Returns the length of a pixel, m, at which the ball falls with g: the fit in pixels has g in pixels per s².
+fn by_gravity(frames: &Frames, rig: &Rig) -> Result<Measured, DataError> {
+    let free = Rig { gravity: None, ..*rig };
+    let mut pixel = Measured::exact(FIRST_PIXEL);
+    // In air the departure from the parabolas depends on the scale.
+    for _ in 0..SCALE_ROUNDS {
+        let Some(fitted) = Track::fitted_gravity(frames.scaled(pixel.value), &free) else {
+            let message = "the heights are in pixels, and the flights do not show their scale";
+            let error = DataError::new(&frames.name, message);
+            return Err(error.with_help("give the length of a pixel, such as --scale '0.8 mm'"));
+        };
+        let spread = (fitted.uncertainty / fitted.value)
+            .hypot(rig.gravity().uncertainty / rig.gravity().value);
+        pixel.value *= rig.flights().gravity() / fitted.value;
+        pixel.uncertainty = spread * pixel.value;
+    }
+    Ok(pixel)
 }

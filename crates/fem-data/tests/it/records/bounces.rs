@@ -233,6 +233,13 @@ fn height_contact_time_and_rest_of_the_rig_are_used() {
         (found.impacts.last().unwrap().restitution.value, found.contact_time_slope)
     });
     assert!(((with.0 - without.0) / change / without.1 - 1.0).abs() < 1e-3);
+    // One instant suffices with both: e = T/(T + 2t) of 6.0843 s to rest after a fall of 0.4658 s.
+    let rig = Rig { drop_height: exact(1.064), rest: exact(6.55), ..Rig::default() };
+    let found = bounces("time_s\n0.4657\n", &rig);
+    let whole = 6.55 - 0.4657;
+    let expected = whole / (whole + 2.0 * (2.0 * 1.064 / Ball::G).sqrt());
+    assert!((found.impacts[0].restitution.value - expected).abs() < 1e-12, "{:?}", found.impacts);
+    assert!((expected - 0.867).abs() < 5e-4 && found.impacts.len() == 1);
     // One flight suffices with the height or with the rest.
     for rig in [
         Rig { drop_height: exact(0.5), ..Rig::default() },
@@ -278,7 +285,7 @@ fn headers_units_and_dialects_of_instants_are_read() {
 fn records_that_say_nothing_are_errors_that_say_why() {
     // The unit of the heights is not known, and so they are not found.
     let frames: String = (0..100).map(|k| format!("{:.5},{k}\n", f64::from(k) / 240.0)).collect();
-    let frames = "t,y_px\n".to_string() + &frames;
+    let frames = "t,y_ell\n".to_string() + &frames;
     let geometric = |n: i32| list((0..n).map(|k| 1.0 - 0.9f64.powi(k)));
     for (text, expected) in [
         ("", "there is no row below the header"),
@@ -360,4 +367,63 @@ fn bars_of_a_fit_to_bounces_of_one_record() {
         let ratio = (stated / squares).sqrt();
         assert!(expected.contains(&ratio), "{jitter} {scatter} {is_weighted}: {ratio}");
     }
+}
+
+/// Layouts of phones, instruments and programs, each with the instants or the samples that it holds.
+#[test]
+fn layouts_of_instruments_and_programs_are_read() {
+    const INSTANTS: [f64; 4] = [0.4, 1.0, 1.54, 2.026];
+    const SAMPLES: [f64; 4] = [0.1, 0.5, -0.3, 0.2];
+    for (text, expected) in [
+        ("Event time (s),Interval (s)\n0.4,0.6\n1.0,0.54\n1.54,0.486\n2.026,0.0000\n", 0.4),
+        ("Bounce,Time (s)\n1,0.4\n2,1\n3,1.54\n4,2.026\n", 0.4),
+        ("Class 7b\nelapsed time (seconds)\n0.4\n1\n1.54\n2.026\n", 0.4),
+        ("Interval #,Time (s)\n1,0.6\n2,0.54\n3,0.486\n", 0.0),
+        ("interval (s)\n0.6\n0.54\n0.486\n", 0.0),
+        ("Start (s),Stop 1 (s),Stop 2 (s),Stop 3 (s),Stop 4 (s)\n0.4,1,1.54,2.026,0.0\n", 0.4),
+        ("0.4\t0.4\tbounce 1\n1\t1\tbounce 2\n1.54\t1.54\t\n2.026\t2.026\tbounce 4\n", 0.4),
+        ("Bounce,Time (s)\n1,0.4\n2,1\n3,1.54\n4,2.026\nMittelwert,1.2\n", 0.4),
+    ] {
+        let found = bounces(text, &Rig::default());
+        let expected = INSTANTS.map(|time| time - 0.4 + expected);
+        let off = found.instants.values.iter().zip(expected).map(|(a, b)| (a - b).abs());
+        assert_eq!(found.instants.values.len(), 4, "{text}: {found:?}");
+        assert!(off.fold(0.0, f64::max) < 1e-12, "{text}: {found:?}");
+        let names_mean = found.warnings.iter().any(|it| it.contains("line 6 is left out: Mittel"));
+        assert_eq!(names_mean, text.contains("Mittelwert"), "{:?}", found.warnings);
+    }
+    for text in [
+        "Drop 1 (s),Drop 2 (s)\n0.4,0.5\n1,1.1\n1.54,1.64\n2.026,\n",
+        "Start,Stop 1,Stop 2,Stop 3\n0.4,1,1.54,2.026\n0.5,1.1,1.64,0\n",
+    ] {
+        let found = bounces(text, &Rig::default());
+        assert_eq!(found.instants.starts, [4], "{text}");
+        assert_eq!(found.impacts.len(), 3, "{text}: {:?}", found.spans);
+        let e = found.impacts.iter().map(|impact| impact.restitution.value);
+        assert!(e.fold(0.0, |worst: f64, e| worst.max((e - 0.9).abs())) < 1e-12, "{text}");
+        assert!(found.warnings[0].starts_with("2 drops: the instants of each"), "{text}");
+    }
+    for text in [
+        "X,CH1,Start,Increment,\nSequence,Volt,0.1,1e-3,\n0,0.1,\n1,0.5,\n2,-0.3,\n3,0.2,\n",
+        "Record Length,Analog:4\nSample Interval,CH1:0.001\nHorizontal Units,S\nModel Number,SDS1104X-E\n\
+         Second,Value\n0.100,0.1\n0.101,0.5\n0.102,-0.3\n0.103,0.2\n",
+        "Record Length,4,,0.100,0.1,\nSample Interval,1e-3,,0.101,0.5,\nTrigger Point,0,,0.102,-0.3,\n\
+         ,,,0.103,0.2,\n",
+        "x-axis,1\nsecond,Volt\n0.100,0.1\n0.101,0.5\n0.102,-0.3\n0.103,0.2\n",
+        "Time,Channel A\n(ms),(V)\n\n100,0.1\n101,0.5\n102,-0.3\n103,0.2\n",
+        "LabVIEW Measurement\t\nSeparator\tTab\n***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t4\t\n\
+         Y_Unit_Label\tVolts\t\nX0\t0\t\nDelta_X\t0.001\t\n***End_of_Header***\t\t\nX_Value\tVoltage\tComment\n\
+         0.100\t0.1\n0.101\t0.5\n0.102\t-0.3\n0.103\t0.2\n",
+        "LabVIEW Measurement,\n***End_of_Header***,\n,\nChannels,1,,\n***End_of_Header***,,\n\
+         X_Value,Voltage,Comment\n0.100,0.1,\n0.101,0.5,\n0.102,-0.3,\n0.103,0.2,\n",
+    ] {
+        let table = Table::of_record("scope.csv", text).unwrap();
+        let signal = Signal::read(&table).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(signal.values, SAMPLES, "{text}");
+        let times = [signal.start - 0.1, signal.rate * 1e-3 - 1.0];
+        assert!(times.iter().all(|off| off.abs() < 1e-9), "{text}: {signal:?}");
+    }
+    let channels = "Time,Channel A,Channel B\n(ms),(V),(V)\n\n100,0.1,1\n101,0.5,1\n102,0,1\n";
+    let error = read(channels, &Rig::default()).unwrap_err();
+    assert!(format!("{error:?}").contains("--columns NAME=channel_a"), "{error:?}");
 }

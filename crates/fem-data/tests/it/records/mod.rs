@@ -7,7 +7,7 @@ use fem_data::instruments::{
     BounceTimes, ForceRecord, FreeFlight, Impact, Record, Rig, Signal, Sound,
     TimeUncertaintySource, Track,
 };
-use fem_data::table::DataError;
+use fem_data::table::{DataError, Table};
 use fem_laws::{EndRule, LawFamily, Pair, Partner};
 use fem_material::{ElasticModuli, Material};
 

@@ -47,6 +47,45 @@ fn tracks_give_back_the_restitution_within_its_uncertainty() {
     coverage.check();
 }
 
+/// A track in frames and pixels gives the restitutions and speeds of the track in metres, with the scale by gravity, or by `scale`.
+#[test]
+fn frames_and_pixels_are_read() {
+    let ball = Ball { height: 0.5, restitution: 0.8, slope: 0.0 };
+    let (true_bounces, mut noise) = (ball.bounces(4), Noise::seeded(12));
+    let (rate, pixel) = (240.0, 8e-4);
+    let frames: Vec<(usize, f64)> = (0..(true_bounces[3].0 * rate) as usize)
+        .map(|k| (k, height(&ball, &true_bounces[..3], k as f64 / rate) + 2e-4 * noise.normal()))
+        .collect();
+    let rows = |time: &dyn Fn(usize) -> f64| -> String {
+        let row = |(k, y): &(usize, f64)| format!("{:.6},{:.4}\n", time(*k), 700.0 - y / pixel);
+        frames.iter().map(row).collect()
+    };
+    let exact = |value: f64| Some(Measured::exact(value));
+    let numbered = Rig { frame_rate: exact(rate), ..Rig::default() };
+    let of_frames = "frame,y_px\n".to_string() + &rows(&|k| k as f64);
+    let of_seconds = "time [s],y [px]\n".to_string() + &rows(&|k| k as f64 / rate);
+    for (text, rig) in [
+        (&of_frames, numbered),
+        (&of_frames, Rig { gravity: exact(9.80665), ..numbered }),
+        (&of_frames, Rig { scale: exact(pixel), ..numbered }),
+        (&of_seconds, Rig::default()),
+    ] {
+        let found = track(text, &rig);
+        let scale = found.pixel.unwrap();
+        assert!((scale.value - pixel).abs() <= 4.0 * scale.uncertainty, "{scale:?}");
+        assert!(scale.uncertainty < 0.01 * pixel, "{scale:?}");
+        assert_eq!(found.impacts.len(), 3, "{:?}", found.warnings);
+        for (impact, (_, speed)) in found.impacts.iter().zip(&true_bounces) {
+            let Measured { value, uncertainty } = impact.speed;
+            assert!((value - speed).abs() < 4.0 * uncertainty, "{impact:?} {speed}");
+            let Measured { value, uncertainty } = impact.restitution;
+            assert!((value - 0.8).abs() < 4.0 * uncertainty, "{impact:?}");
+        }
+    }
+    let error = read(&of_frames, &Rig::default()).unwrap_err();
+    assert!(error.help.is_some_and(|help| help.contains("--frame-rate")));
+}
+
 /// Frames of a table-tennis ball in air with noise give back the restitution within its uncertainty, and g, with the size and the density of the
 /// ball; in vacuum the restitution would be too small by more than four of its bars.
 #[test]
@@ -177,7 +216,7 @@ fn tracks_without_a_bounce_say_why() {
         ("time_s,y_m\n0,1\n0.1,0.9\n".to_string(), "2 frames are too few for a bounce"),
         (format!("time_s,y_m\n{fall}"), "there is no bounce"),
         (format!("time_s,y_m\n{}", whole(100.0)), "the parabolas fall with 980.66"),
-        (format!("time_s,y [px]\n{}", whole(100.0)), "the unit of y_[px] is not known"),
+        (format!("time_s,y [ell]\n{}", whole(100.0)), "the unit of y_[ell] is not known"),
         (
             format!("time_s,y_m\n{}0.5,0.1\n", whole(1.0)),
             "record.csv:202: the time 0.5 s does not increase",
