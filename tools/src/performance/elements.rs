@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use fem_explicit::FreeMotion;
 
-use super::bodies::{Error, Kind, mesh_and_glass};
+use super::bodies::{ELASTIC, Error, KINDS, mesh_and_glass};
 use super::plain::Plain;
 use crate::timing::median;
 
@@ -28,9 +28,9 @@ impl Timed {
     fn new(micrometres: u32) -> Result<Self, Error> {
         let size = 1e-6 * f64::from(micrometres);
         let (mesh, glass) = mesh_and_glass(size)?;
-        let plain = Plain::beside(&mesh, &glass, &mut Kind::Elastic.sphere(size)?);
+        let plain = Plain::beside(&mesh, &glass, &mut ELASTIC.sphere(size)?);
         let spheres: Result<Vec<_>, Error> =
-            Kind::ALL.into_iter().map(|kind| kind.sphere(size)).collect();
+            KINDS.into_iter().map(|kind| kind.sphere(size)).collect();
         let spheres = spheres?;
         let of_spheres = spheres.iter().map(|_| Vec::new()).collect();
         let n_elements = mesh.quads().len();
@@ -92,7 +92,7 @@ pub fn table() -> Result<String, Error> {
         write!(table, " {:.1} | 1 |", median(timed.of_plain.clone()))?;
     }
     let medians: Vec<_> = all.iter().map(Timed::medians).collect();
-    for (k, kind) in Kind::ALL.into_iter().enumerate() {
+    for (k, kind) in KINDS.into_iter().enumerate() {
         write!(table, "\n| {} |", kind)?;
         for of_mesh in &medians {
             let [time, share] = of_mesh[k];

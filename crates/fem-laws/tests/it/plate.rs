@@ -3,9 +3,8 @@
 use fem_laws::laws::{ContactLaw, hertz, linear, mean_pressure, thornton};
 use fem_laws::{
     FiniteSize, FirstYield, FreePlate, HertzImpact, Impact, ImpactPath, LawError, LawImpact,
-    MIN_RESTITUTION, Pair, PairRelaxation, Partner, SINKING_LAMBDA, Ting,
-    largest_von_mises, plate_lambda, plate_mobility, plate_thickness_error, plate_thickness_factor,
-    plate_wave_travel,
+    MIN_RESTITUTION, Pair, PairRelaxation, Partner, SINKING_LAMBDA, Ting, largest_von_mises,
+    plate_lambda, plate_mobility, plate_thickness_error, plate_thickness_factor, plate_wave_travel,
 };
 use fem_material::{ActsOn, FlowStress, Material};
 
