@@ -33,6 +33,18 @@ impl Cells {
         self.lines.remove(0);
     }
 
+    /// Returns the cells without some rows.
+    pub fn without(self, is_left_out: impl Fn(&Self, usize) -> bool) -> Self {
+        if !(0..self.n_rows()).any(|row| is_left_out(&self, row)) {
+            return self;
+        }
+        let mut rest = Self::new(self.n_columns);
+        for row in (0..self.n_rows()).filter(|row| !is_left_out(&self, *row)) {
+            rest.push(self.line(row), (0..self.n_columns).map(|column| self.cell(row, column)));
+        }
+        rest
+    }
+
     pub fn n_columns(&self) -> usize {
         self.n_columns
     }

@@ -331,6 +331,11 @@ pub(super) const LOSS_ENDS: [&str; 10] =
     ["''", "″", "\"", "′′", "’’", "”", "_loss", "_double_prime", "2", "``"];
 pub(super) const COMPLEX_ENDS: [&str; 5] = ["*", "_star", "_complex", "_comp", "_abs"];
 pub(super) const RELAXATION_ENDS: [&str; 3] = ["", "(t)", "_relax"];
+/// Names of columns of the stress and the strain of a relaxation test.
+pub(super) const STRESSES: [&str; 6] =
+    ["stress", "tensile_stress", "shear_stress", "σ", "τ", "oscillation_stress"];
+pub(super) const STRAINS: [&str; 6] =
+    ["strain", "tensile_strain", "shear_strain", "ε", "γ", "oscillation_strain"];
 /// Names of a column of loss factors.
 pub(super) const LOSS_FACTORS: [&str; 10] = [
     "tan_delta",

@@ -66,8 +66,13 @@ pub(super) fn separator(text: &str) -> (u8, &str) {
 
 /// Returns the name of a column in the spelling of lookups: in lower case, with `_` for spaces and with a unit as an ending.
 /// `Impact speed [cm/s]` is `impact_speed_cm_s`, and so are `Impact speed in cm/s` and `Impact speed / (cm/s)`.
+/// `log(t/s)` is `log_t_s`.
 pub(super) fn column_name(header: &str) -> String {
     let header = header.trim();
+    let logarithm = ["log10(", "log(", "lg("].iter().find_map(|log| header.strip_prefix(log));
+    if let Some(inner) = logarithm.and_then(|rest| rest.strip_suffix(')')) {
+        return format!("log_{}", column_name(inner));
+    }
     let joined = |name: &str| name.to_lowercase().split_whitespace().collect::<Vec<_>>().join("_");
     let is_none = |unit: &str| ["-", "1", ""].contains(&unit);
     for (before, after) in [("[", "]"), ("(", ")"), (" in ", ""), (",", ""), ("/", "")] {

@@ -46,6 +46,8 @@ pub struct Table {
     has_decimal_commas: bool,
     /// Columns that the user has renamed.
     named: Vec<usize>,
+    /// Columns that have decimal logarithms: `log(t/s)`.
+    logarithmic: Vec<usize>,
     /// What of the text is left out.
     left_out: Vec<String>,
 }
@@ -139,19 +141,40 @@ impl Table {
         let cells = cells(&name, &text, separator, (header.len(), kind))?;
         let (cells, left_out) = without_means(cells, n_added);
         let mut cells = split_uncertainties(&mut header, cells);
+        let names = header.clone();
+        let mut units = None;
         if cells.n_rows() > 1
-            && let Some(names) = with_units(&header, &cells.row(0), &cells.row(1))
+            && let Some(with_units) = with_units(&header, &cells.row(0), &cells.row(1))
         {
-            header = names;
+            header = with_units;
+            units = Some(cells.row(0));
             cells.remove_first();
         }
+        // Instruments repeat names and units above each step.
+        let cells = cells.without(|cells, row| {
+            let all = |is: &dyn Fn(&str, usize) -> bool| {
+                (0..names.len()).all(|column| is(cells.cell(row, column), column))
+            };
+            all(&|cell, column| column_name(cell) == names[column])
+                || units.as_ref().is_some_and(|units| all(&|cell, column| cell == units[column]))
+        });
+        let logarithmic = logarithms(&mut header);
         if cells.n_rows() == 0 {
             return Err(DataError::new(&name, "there is no row below the header"));
         }
         let has_decimal_commas = separator != b',';
         let named = Vec::new();
         let header_line = header_line.saturating_sub(n_added).max(1);
-        let table = Self { name, header, header_line, cells, has_decimal_commas, named, left_out };
+        let table = Self {
+            name,
+            header,
+            header_line,
+            cells,
+            has_decimal_commas,
+            named,
+            logarithmic,
+            left_out,
+        };
         table.check_header()?;
         table.check_decimal_signs()?;
         Ok(table)
@@ -407,6 +430,9 @@ impl Table {
                 );
                 Err(fault(message).with_help("the ending of a column's name is its unit"))
             }
+            Some(ending) if is_bare && self.logarithmic.contains(&column) => {
+                Ok(10f64.powf(value) * ending.scale)
+            }
             Some(ending) if is_bare => Ok(value * ending.scale),
             None if is_bare && dimension != [0; 3] && header.contains(['[', '(']) => {
                 let message = format!("the unit of {header} is not known");
@@ -568,6 +594,21 @@ fn cells(
         }
         cells.push(line, record.iter());
     }
+}
+
+/// Gives columns of decimal logarithms the name of their quantity, `time_s` for `log_time_s`, and returns them.
+fn logarithms(header: &mut [String]) -> Vec<usize> {
+    let mut found = Vec::new();
+    for (column, name) in header.iter_mut().enumerate() {
+        let inner = ["log10_", "log_", "lg_"].iter().find_map(|log| name.strip_prefix(log));
+        let Some(inner) = inner.map(str::to_string) else { continue };
+        // The unit says that this is a quantity, and no name that begins so.
+        if ending_of(&inner).is_some() {
+            *name = inner;
+            found.push(column);
+        }
+    }
+    found
 }
 
 /// Returns the cells without the rows below a series that spreadsheets compute, and a sentence about each.

@@ -7,12 +7,12 @@ use fem_material::ZERO_CELSIUS;
 use super::column_roles::{
     ANGULAR_FREQUENCIES, COMPLEX_ENDS, COMPLEX_MODULI, FREQUENCIES, LOSS_ENDS, LOSS_FACTORS,
     LOSS_MODULI, PHASES, PRESSURE, RELAXATION_ENDS, RELAXATION_MODULI, SHORT_TEMPERATURES,
-    STORAGE_ENDS, STORAGE_MODULI, TEMPERATURES, TIMES, bare, before_brackets, ending_of,
+    STORAGE_ENDS, STORAGE_MODULI, STRAINS, STRESSES, TEMPERATURES, TIMES, bare, before_brackets,
+    ending_of,
 };
 use super::csv_dialect::column_name;
 use super::csv_table::Table;
 use super::data_error::DataError;
-use super::preamble::without_preamble;
 use super::temperature_blocks::with_temperature_column;
 
 /// Temperatures of measurements, K.
@@ -123,6 +123,8 @@ enum Role {
     Relaxation(Option<Modulus>),
     LossFactor,
     Phase,
+    Stress,
+    Strain,
 }
 
 impl Role {
@@ -140,7 +142,9 @@ impl Role {
         {
             return Some(Self::Temperature(if is_temperature { unit } else { "_degc" }));
         }
-        let plain: [(&[&str], Self); 4] = [
+        let plain: [(&[&str], Self); 6] = [
+            (&STRESSES, Self::Stress),
+            (&STRAINS, Self::Strain),
             (&FREQUENCIES, Self::Frequency),
             (&ANGULAR_FREQUENCIES, Self::AngularFrequency),
             (&LOSS_FACTORS, Self::LossFactor),
@@ -251,7 +255,17 @@ impl<'a> Columns<'a> {
             let message = format!("there is no column of {what}; found are {found}");
             table.header_fault(message).with_help(COLUMNS)
         };
-        let abscissa = find(Role::is_abscissa)?.ok_or_else(|| missing("a frequency or a time"))?;
+        let mut abscissae = (0..roles.len()).filter_map(|column| Some((column, roles[column]?)));
+        let mut abscissae: Vec<_> =
+            abscissae.by_ref().filter(|(_, role)| role.is_abscissa()).collect();
+        if let [first, second] = abscissae[..]
+            && agree(table, first, second)
+        {
+            abscissae.pop();
+        }
+        table.only(abscissae.iter().map(|(column, _)| *column))?;
+        let abscissa =
+            abscissae.first().copied().ok_or_else(|| missing("a frequency or a time"))?;
         let temperature = find(|role| matches!(role, Role::Temperature(_)))?;
         let storage = find(|role| matches!(role, Role::Storage(_)))?;
         let loss = find(|role| matches!(role, Role::Loss(_)))?;
@@ -261,10 +275,18 @@ impl<'a> Columns<'a> {
             factor => factor,
         };
         let relaxation = find(|role| matches!(role, Role::Relaxation(_)))?;
+        let [stress, strain] = match abscissa.1 {
+            Role::Time => [find(|role| role == Role::Stress)?, find(|role| role == Role::Strain)?],
+            _ => [None; 2],
+        };
         let moduli = match (storage, loss, complex, factor) {
-            _ if abscissa.1 == Role::Time => {
-                vec![relaxation.ok_or_else(|| missing("the relaxation modulus"))?]
-            }
+            _ if abscissa.1 == Role::Time => match (relaxation, stress, strain) {
+                (Some(modulus), ..) => vec![modulus],
+                (None, Some((stress, _)), Some(strain)) => {
+                    vec![(stress, Role::Relaxation(None)), strain]
+                }
+                _ => return Err(missing("the relaxation modulus, or of stress and strain")),
+            },
             (Some(first), Some(second), ..)
             | (Some(first), None, _, Some(second))
             | (None, _, Some(first), Some(second)) => vec![first, second],
@@ -312,6 +334,13 @@ impl<'a> Columns<'a> {
                 }
                 [first, loss]
             }
+            [(column, Role::Strain), ..] => {
+                let strain = self.table.number(row, column, [0; 3])?;
+                if !(strain.abs() > 0.0 && strain.is_finite()) {
+                    return Err(self.table.cell_fault(row, column, strain, "the strain is not 0"));
+                }
+                [first / strain.abs(), 0.0]
+            }
             [(column, of_factor), ..] => {
                 let factor = self.loss_factor(row, column, of_factor)?;
                 let is_complex = matches!(role, Role::Complex(_));
@@ -324,7 +353,7 @@ impl<'a> Columns<'a> {
             Some((column, Role::Temperature(unit))) => Some(self.kelvin(row, column, unit)?),
             _ => None,
         };
-        let at = self.abscissa_at(row, self.abscissa)?;
+        let at = abscissa_at(self.table, row, self.abscissa)?;
         Ok(Some(ModulusPoint { at, storage, loss, temperature, line: self.table.line(row) }))
     }
 
@@ -342,21 +371,37 @@ impl<'a> Columns<'a> {
         }
         Ok(value)
     }
+}
 
-    /// Returns an angular frequency, rad/s, or a time, s, > 0.
-    fn abscissa_at(&self, row: usize, (column, role): (usize, Role)) -> Result<f64, DataError> {
-        let header = &self.table.header()[column];
-        let dimension = if role == Role::Time { [0, 0, 1] } else { [0, 0, -1] };
-        let value = self.table.number(row, column, dimension)?;
-        // The reciprocal second of an angular frequency is no cycle.
-        let is_phase_rate = role == Role::AngularFrequency
-            && ending_of(header).is_none_or(|ending| ending.text == "_per_s");
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(self.table.cell_fault(row, column, value, "it is above 0"));
+/// Largest relative difference of two columns of one quantity, which are rounded.
+const ROUNDED: f64 = 1e-3;
+
+/// Whether two columns of frequencies have the same ones in all rows.
+fn agree(table: &Table, first: (usize, Role), second: (usize, Role)) -> bool {
+    (0..table.n_rows()).all(|row| {
+        match [first, second].map(|column| abscissa_at(table, row, column)) {
+            [Ok(one), Ok(other)] => (one / other - 1.0).abs() < ROUNDED,
+            // A row without numbers is read, or not, as any other.
+            _ => true,
         }
-        Ok(if role == Role::Time || is_phase_rate { value } else { TAU * value })
-    }
+    })
+}
 
+/// Returns an angular frequency, rad/s, or a time, s, > 0.
+fn abscissa_at(table: &Table, row: usize, (column, role): (usize, Role)) -> Result<f64, DataError> {
+    let header = &table.header()[column];
+    let dimension = if role == Role::Time { [0, 0, 1] } else { [0, 0, -1] };
+    let value = table.number(row, column, dimension)?;
+    // The reciprocal second of an angular frequency is no cycle.
+    let is_phase_rate = role == Role::AngularFrequency
+        && ending_of(header).is_none_or(|ending| ending.text == "_per_s");
+    if !(value > 0.0 && value.is_finite()) {
+        return Err(table.cell_fault(row, column, value, "it is above 0"));
+    }
+    Ok(if role == Role::Time || is_phase_rate { value } else { TAU * value })
+}
+
+impl Columns<'_> {
     /// Returns a temperature, K.
     fn kelvin(&self, row: usize, column: usize, unit: &str) -> Result<f64, DataError> {
         let value = self.table.number(row, column, [0; 3])?;
@@ -406,7 +451,7 @@ impl ModulusTable {
         let whole = Table::parse(name, text);
         let found = match whole {
             Ok(table) if table.header().iter().any(|it| role(it).is_some()) => Ok(table),
-            whole => Table::parse(name, &without_preamble(text, false)).or(whole),
+            whole => Table::of_record(name, text).or(whole),
         };
         if found.as_ref().is_ok_and(has_temperature) {
             return found;

@@ -576,3 +576,36 @@ fn shifts_of_a_published_export_are_those_of_the_instrument() {
         assert!((shift - expected).abs() < 0.1 + 0.03 * expected.abs(), "{shift} for {expected}");
     }
 }
+
+/// Steps below names and units of their own, two columns of one frequency, logarithms, and stress over strain are read.
+#[test]
+fn layouts_of_instruments_are_read() {
+    let at = |hertz: f64| 2.0 * std::f64::consts::PI * hertz;
+    let steps = "Operator,lab\nLength,50 mm\n\n[step]\nSweep - 0C\nAngular frequency,Temperature,Storage modulus,Loss \
+        modulus,Frequency\nrad/s,°C,MPa,MPa,Hz\n6.25,0,1200,80,0.994718\n62.5,0,1300,60,9.94718\n\n[step]\nSweep - 20C\nAngular \
+        frequency,Temperature,Storage modulus,Loss modulus,Frequency\nrad/s,°C,MPa,MPa,Hz\n6.25,20,900,90,0.994718\n";
+    for (text, expected) in [
+        (steps, vec![(6.25, 1.2e9), (62.5, 1.3e9), (6.25, 0.9e9)]),
+        (
+            "log(f/Hz),E' [MPa],tan delta\n-1,2000,0.05\n1,2400,0.04\n",
+            vec![(at(0.1), 2e9), (at(10.0), 2.4e9)],
+        ),
+        ("log10(t/s);E(t) [MPa]\n-1,0;44,1\n2,0;12,8\n", vec![(0.1, 44.1e6), (100.0, 12.8e6)]),
+        (
+            "Time (s),Stress (MPa),Strain (%)\n0.1,0.88,2\n1,0.58,2\n",
+            vec![(0.1, 44e6), (1.0, 29e6)],
+        ),
+    ] {
+        let table = ModulusTable::parse("moduli.csv", text, &[], None).unwrap();
+        let found: Vec<(f64, f64)> =
+            table.points.iter().map(|point| (point.at, point.storage)).collect();
+        assert_eq!(found.len(), expected.len(), "{text}: {found:?}");
+        for (one, other) in found.iter().zip(&expected) {
+            assert!((one.0 / other.0 - 1.0).abs() < 1e-12, "{text}: {found:?}");
+            assert!((one.1 / other.1 - 1.0).abs() < 1e-12, "{text}: {found:?}");
+        }
+    }
+    let different = "omega [rad/s],f [Hz],E' [MPa],E'' [MPa]\n1,1,2000,50\n10,10,2100,60\n";
+    let error = ModulusTable::parse("moduli.csv", different, &[], None).unwrap_err();
+    assert!(error.to_string().contains("mean the same"), "{error}");
+}
