@@ -23,7 +23,7 @@ pub struct Kind {
     is_ordered: bool,
 }
 
-/// Hooke's law.
+/// Hooke's law on a mesh that is made here.
 pub const ELASTIC: Kind = Kind {
     name: "elastic",
     weights: &[],
