@@ -52,7 +52,7 @@ pub struct Instants {
     pub resolution: f64,
     /// The first instants of drops after the first one, as indices, where the record says it.
     pub starts: Vec<usize>,
-    /// What of the record is left out or changed.
+    /// Sentences about parts of the record that are left out or changed.
     pub notes: Vec<String>,
 }
 

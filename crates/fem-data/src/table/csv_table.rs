@@ -46,7 +46,7 @@ pub struct Table {
     has_decimal_commas: bool,
     /// Columns that the user has renamed.
     named: Vec<usize>,
-    /// What of the text is left out.
+    /// Sentences about lines of the text that are left out.
     left_out: Vec<String>,
 }
 

@@ -142,7 +142,7 @@ fn missing_and_additional_instants_are_found() {
 
 /// Phone records with one to three bad instants, late or early by 15 to 60 ms, some of them the last ones, which a hand
 /// stops: what is left out is named, no restitution is off by more than three of its bars, and bars stay those of the
-/// other instants. Of other such records one in twenty has a restitution off by more.
+/// other instants. In other draws about one record in twenty exceeds that.
 #[test]
 fn bad_instants_do_not_spoil_the_others() {
     let mut noise = Noise::seeded(11);
