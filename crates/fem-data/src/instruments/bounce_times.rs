@@ -15,6 +15,7 @@ use crate::estimate::median;
 use crate::table::Measured;
 use crate::table::{DataError, Table};
 
+use super::bad_instants::good_flights;
 use super::flight_speeds::{Errors, Speeds};
 use super::impact::Impact;
 use super::rig::Rig;
@@ -51,7 +52,7 @@ pub struct Instants {
     pub resolution: f64,
     /// The first instants of drops after the first one, as indices, where the record says it.
     pub starts: Vec<usize>,
-    /// What of the record is left out or changed.
+    /// Sentences about parts of the record that are left out or changed.
     pub notes: Vec<String>,
 }
 
@@ -275,22 +276,32 @@ impl BounceTimes {
     pub fn of(instants: Instants, rig: &Rig) -> Result<Self, DataError> {
         rig.check(&instants.name)?;
         check_flights(&instants, rig)?;
-        let spans = instants.spans();
+        let largest = |all: &Vec<f64>| all.iter().copied().fold(0.0, f64::max);
+        let known = rig.time_uncertainty.or(instants.uncertainties.as_ref().map(largest));
+        let (spans, at_ends) = good_flights(&instants, instants.spans(), known);
         let found = scatter(&instants.values, &spans);
         let (uncertainties, source) = uncertainties(&instants, rig, found.as_ref());
         let mut warnings = instants.notes.clone();
-        warnings.extend(left_out(&instants, &spans));
+        warnings.extend(left_out(&instants, &spans, &at_ends));
         let speeds = Speeds::of(&instants, &spans, &uncertainties, rig, &mut warnings);
         let mut found_impacts: Vec<(Impact, Errors)> =
             speeds.first(&instants, rig).chain(speeds.others()).collect();
         found_impacts.sort_by(|a, b| a.0.time.total_cmp(&b.0.time));
-        found_impacts.retain(|(impact, _)| match impact.impossible() {
-            Some(reason) => {
+        // No ball gains energy: the instant of such an impact is wrong, and so are the flights on both sides of it.
+        let wrong: Vec<f64> = found_impacts
+            .iter()
+            .filter_map(|(impact, _)| {
+                let reason = impact.impossible()?;
                 warnings.push(format!("the impact at {:.4} s is left out: {reason}", impact.time));
-                false
-            }
-            None => true,
-        });
+                Some(impact.time)
+            })
+            .collect();
+        let stands_on =
+            |errors: &Errors| errors.times(&instants.values).any(|time| wrong.contains(&time));
+        if !found_impacts.iter().all(|(_, errors)| stands_on(errors)) {
+            found_impacts.retain(|(_, errors)| !stands_on(errors));
+        }
+        found_impacts.retain(|(impact, _)| impact.impossible().is_none());
         let (mut impacts, errors): (Vec<Impact>, Vec<Errors>) = found_impacts.into_iter().unzip();
         let last_drop = drops(&spans).last().map_or(0, |drop| drop[0].from);
         let drop = speeds.drop(rig);
@@ -492,8 +503,14 @@ fn uncertainties(
     }
 }
 
-fn left_out(instants: &Instants, spans: &[FlightSpan]) -> Vec<String> {
-    let mut warnings = Vec::new();
+fn left_out(instants: &Instants, spans: &[FlightSpan], at_ends: &[usize]) -> Vec<String> {
+    let does_not_fit = |instant: usize| {
+        let time = instants.values[instant];
+        format!(
+            "the instant {time:.4} s is left out: it does not fit the flights before and after it"
+        )
+    };
+    let mut warnings: Vec<String> = at_ends.iter().copied().map(does_not_fit).collect();
     for FlightSpan { from, to, n_flights } in spans.iter().copied() {
         let [start, end] = [from, to].map(|k| instants.values[k]);
         if n_flights == 0 && !instants.starts.contains(&to) {
@@ -501,7 +518,7 @@ fn left_out(instants: &Instants, spans: &[FlightSpan]) -> Vec<String> {
                 "from {start:.4} s to {end:.4} s is no flight of the ball: another drop begins"
             ));
         }
-        if n_flights > 1 {
+        if n_flights > to - from {
             let missing = if n_flights == 2 { "an instant is" } else { "two instants are" };
             warnings.push(format!(
                 "{missing} missing between {start:.4} s and {end:.4} s: these {n_flights} flights are left out"
@@ -509,7 +526,10 @@ fn left_out(instants: &Instants, spans: &[FlightSpan]) -> Vec<String> {
         }
         for between in from + 1..to {
             let extra = instants.values[between];
-            warnings.push(format!("the instant {extra:.4} s is left out: it is no bounce"));
+            warnings.push(match n_flights {
+                1 => format!("the instant {extra:.4} s is left out: it is no bounce"),
+                _ => does_not_fit(between),
+            });
         }
     }
     warnings

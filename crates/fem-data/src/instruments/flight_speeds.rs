@@ -77,6 +77,11 @@ pub(super) struct Errors {
 }
 
 impl Errors {
+    /// Returns the instants on which the restitution depends, s.
+    pub fn times<'a>(&'a self, instants: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.instants.iter().map(|(k, _)| instants[*k])
+    }
+
     /// Returns the covariance with another restitution of the same record.
     pub fn covariance(&self, other: &Self) -> f64 {
         let shared = self.instants.iter().flat_map(|(k, own)| {

@@ -7,13 +7,14 @@
 //!          of              ├─ track ────────┤
 //!          crate::table   └─ force ────────┘
 //! rig ──── free_flight, with drag ── flight_speeds, of bounce_times
-//! series ─ drops, missing instants, scatter
+//! series ─ drops, missing instants, scatter ── bad_instants, without which the others fit
 //! cradle_trials ─ cradle: angles of a Newton's cradle
 //! ```
 //!
 //! A record that does not support a restitution is an error that says why. Nothing is opened here: callers pass texts and
 //! their names.
 
+mod bad_instants;
 mod bounce_times;
 pub mod cradle;
 mod cradle_trials;

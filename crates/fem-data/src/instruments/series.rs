@@ -34,7 +34,7 @@ const NEIGHBOURS: usize = 3;
 /// Fewest flights in which missing instants are searched.
 const FEWEST: usize = 4;
 /// Most terms of the polynomial through the logarithms of flight times.
-const MAX_TERMS: usize = 5;
+pub(super) const MAX_TERMS: usize = 5;
 /// Fewest degrees of freedom of a polynomial that is no line.
 const FEWEST_FREEDOM: f64 = 2.0;
 /// Confidence of the interval that two standard uncertainties are.
@@ -214,9 +214,8 @@ pub struct Scatter {
 /// several vague estimates is too small.
 pub(super) fn scatter(instants: &[f64], spans: &[FlightSpan]) -> Option<Scatter> {
     let of = |n_terms: usize| {
-        let all = drops(spans).filter_map(|drop| Misfit::about(instants, drop, n_terms));
-        let whole = all.reduce(Misfit::with)?;
-        let freedom = (whole.trace * whole.trace / whole.trace_of_square).max(1.0);
+        let whole = Misfit::of_all(instants, spans, n_terms)?;
+        let freedom = whole.freedom();
         let uncertainty = widened(freedom) * (whole.squares / whole.trace).sqrt();
         let residual = |span: &FlightSpan| {
             let found = whole.residuals.iter().find(|(from, _)| *from == span.from);
@@ -230,11 +229,11 @@ pub(super) fn scatter(instants: &[f64], spans: &[FlightSpan]) -> Option<Scatter>
 }
 
 /// The misfit of single flights of a drop, and that which scattering instants would have.
-struct Misfit {
+pub(super) struct Misfit {
     /// Sum of the squared residuals, s².
-    squares: f64,
+    pub squares: f64,
     /// Its mean over the variance of an instant, the trace of MV.
-    trace: f64,
+    pub trace: f64,
     /// The trace of (MV)², by which the degrees of freedom are counted.
     trace_of_square: f64,
     /// Residual, s, of each flight, with the index of the instant at its beginning.
@@ -242,6 +241,17 @@ struct Misfit {
 }
 
 impl Misfit {
+    /// Returns the misfit of all drops; `None` if none has more flights than terms.
+    pub fn of_all(instants: &[f64], spans: &[FlightSpan], n_terms: usize) -> Option<Self> {
+        let all = drops(spans).filter_map(|drop| Self::about(instants, drop, n_terms));
+        all.reduce(Self::with)
+    }
+
+    /// Returns the effective number of degrees of freedom.
+    pub fn freedom(&self) -> f64 {
+        (self.trace * self.trace / self.trace_of_square).max(1.0)
+    }
+
     /// Returns the misfit of two drops.
     fn with(mut self, other: Self) -> Self {
         self.squares += other.squares;

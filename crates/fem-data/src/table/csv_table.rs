@@ -48,7 +48,7 @@ pub struct Table {
     named: Vec<usize>,
     /// Columns that have decimal logarithms: `log(t/s)`.
     logarithmic: Vec<usize>,
-    /// What of the text is left out.
+    /// Sentences about lines of the text that are left out.
     left_out: Vec<String>,
 }
 

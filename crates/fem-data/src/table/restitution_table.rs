@@ -169,7 +169,7 @@ struct Wanted<'a> {
     pub names: &'a [&'a str],
 }
 
-/// What a column says of an impact or of its rebound.
+/// The quantity that a column gives for an impact or its rebound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Said {
     Speed,
@@ -204,12 +204,12 @@ impl Said {
 struct Columns {
     /// Speeds whose sum is the approach speed, or a height.
     speeds: Vec<usize>,
-    /// What they are.
+    /// The quantity that they are.
     approach: Said,
     /// Speeds of bodies that have no column, m/s.
     other_speed: f64,
     restitution: usize,
-    /// What it is.
+    /// The quantity that it is.
     rebound: Said,
     uncertainty: Option<usize>,
     contact_time: Option<usize>,

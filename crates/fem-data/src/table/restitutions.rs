@@ -59,7 +59,7 @@ pub struct Restitutions {
     pub uneven: Option<UnevenUncertainties>,
     /// Columns that are not read.
     pub unread: Vec<String>,
-    /// What of the table is left out, or follows from it.
+    /// Sentences about rows that are left out and about derived speeds.
     pub notes: Vec<String>,
 }
 

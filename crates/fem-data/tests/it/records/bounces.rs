@@ -140,6 +140,71 @@ fn missing_and_additional_instants_are_found() {
     }
 }
 
+/// Phone records with one to three bad instants, late or early by 15 to 60 ms, some of them the last ones, which a hand
+/// stops: what is left out is named, no restitution is off by more than three of its bars, and bars stay those of the
+/// other instants. In other draws about one record in twenty exceeds that.
+#[test]
+fn bad_instants_do_not_spoil_the_others() {
+    let mut noise = Noise::seeded(11);
+    let (mut n_impacts, mut n_true, mut bars) = (0, 0, Vec::new());
+    for record in 0..65 {
+        let e0 = noise.between(0.7, 0.94);
+        let loss = noise.between(0.0, 0.01);
+        let scatter = noise.between(0.3e-3, 1.5e-3);
+        let n = 9 + noise.0.usize(0..8);
+        let (mut times, mut e_after) = (vec![0.4], vec![0.0]);
+        let mut flight = noise.between(0.45, 0.8);
+        for k in 0..n {
+            times.push(times[k] + flight);
+            let e = e0 - loss * k as f64;
+            e_after.push(e);
+            flight *= e;
+        }
+        n_true += n - 1;
+        let truth = times.clone();
+        times.iter_mut().for_each(|time| *time += scatter * noise.normal());
+        let n_bad = 1 + record % 3;
+        for k in 0..n_bad {
+            // Of every other record the last instants.
+            let at = if record % 2 == 0 { n - k } else { 1 + noise.0.usize(0..n) };
+            let gap = (times[at] - times[at - 1])
+                .min(times.get(at + 1).map_or(f64::INFINITY, |next| next - times[at]));
+            let shift = noise.between(15e-3, 60e-3).min(0.6 * gap);
+            times[at] += if record % 4 < 2 { shift } else { -shift };
+        }
+        let found = bounces(&list(times), &Rig::default());
+        n_impacts += found.impacts.len();
+        bars.push(found.time_uncertainty / scatter);
+        for impact in &found.impacts {
+            let near = |k: &usize| (truth[*k] - impact.time).abs();
+            let k = (1..n).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap();
+            let e = impact.restitution;
+            let off = (e.value - e_after[k]).abs() / e.uncertainty;
+            assert!(off < 3.0, "{record}: {off} {impact:?} {:?}", found.warnings);
+        }
+        let is_named = found.instants.values.len() == 1 + found.spans.len()
+            || found.warnings.iter().any(|it| it.contains("left out"));
+        assert!(is_named, "{record}: {:?}", found.warnings);
+    }
+    bars.sort_by(f64::total_cmp);
+    assert!(bars[32] < 2.0, "{bars:?}");
+    assert!(n_impacts * 10 > 6 * n_true, "{n_impacts} of {n_true}");
+    // The last two of a public record are a hand: the others scatter by half a millisecond, and the ball would rest after 8.8 s.
+    let times = [
+        0.8428, 1.3052, 1.7322, 2.1289, 2.4969, 2.8406, 3.1631, 3.4673, 3.753, 4.0219, 4.2745,
+        4.5135, 4.7397, 4.9542, 5.1575, 5.3699, 5.4999,
+    ];
+    let found = bounces(&list(times), &Rig::default());
+    assert_eq!(found.impacts.len(), 13);
+    assert!((4e-4..6e-4).contains(&found.time_uncertainty), "{}", found.time_uncertainty);
+    assert!((found.predicted_rest.unwrap() - 8.8).abs() < 0.1, "{:?}", found.predicted_rest);
+    assert!(
+        found.warnings[..2].iter().all(|it| it.contains("is left out")),
+        "{:?}",
+        found.warnings
+    );
+}
+
 /// A record of two drops, with a pause of any length between them and a click before the first, has the restitutions of both, and the
 /// uncertainty of its instants is that of the noise; with the height both drops have their first impact.
 #[test]
