@@ -1,5 +1,6 @@
 //! Builds the summary of a collision.
 
+use fem_case::{ModelChoice, Spot};
 use fem_collision::{
     Account, Approach, BalanceSide, Bounce, Collision, Ending, EnergyLedger, PROGRAM,
     QuantityOfInterest, RestState, Status, energy_key,
@@ -242,7 +243,13 @@ fn bounces(
     simulation.case().scene().gravity()?;
     let measured = simulation.case().scene().measured_restitutions();
     let bars = collision.bounces.iter().take(MAX_BARS_OF_BOUNCES);
-    let bars: Vec<Parts> = bars.map(|bounce| bar_of(simulation, bounce, errors)).collect();
+    let mut bars: Vec<Parts> = bars.map(|bounce| bar_of(simulation, bounce, errors)).collect();
+    // A law keeps no dent, and what a contact on one returns is not known.
+    let keeps_none = matches!(simulation.case().scene().model(), ModelChoice::Law { law, .. }
+        if law.family.strength_parameter().is_some());
+    if keeps_none && simulation.case().scene().gravity()?.spot == Some(Spot::Same) {
+        bars.iter_mut().skip(1).for_each(|bar| bar.model = None);
+    }
     let contacts = collision.bounces.iter().enumerate().map(|(k, bounce)| {
         let mut number = |key: &str, value: Option<f64>| {
             numbers.finite_if_any(&format!("bounces.{k}.{key}"), value)

@@ -302,13 +302,17 @@ fn a_dent_outlasts_elastic_contacts() {
     }
 }
 
-/// A law keeps no dent, and says so.
+/// A law keeps no dent, and says so; what later contacts return has no error bar.
 #[test]
 fn a_law_on_the_same_spot_says_that_it_has_no_dent() {
     let law =
         ["model={ law = { mean_pressure = { yield_strength = '1 GPa' } } }", "gravity.spot='same'"];
-    let warnings = summary_of(DENTED_BALL, &law).warnings.join("\n");
+    let summary = summary_of(DENTED_BALL, &law);
+    let warnings = summary.warnings.join("\n");
     assert!(warnings.contains("keeps no dent"), "{warnings}");
+    let bounces = summary.bounces.unwrap();
+    let has_bar = |k: usize| bounces[k].restitution_uncertainty.model.is_some();
+    assert!(bounces.len() > 1 && has_bar(0) && !has_bar(1), "{bounces:?}");
 }
 
 /// An elastic ball has no dent, wherever it falls.

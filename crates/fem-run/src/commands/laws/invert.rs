@@ -56,6 +56,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
+    standard_output::warn(law_errors(&answers));
     let (mut rows, mut parts, mut notes) = (Vec::new(), Vec::new(), String::new());
     for (family, answer) in &answers {
         match answer {
@@ -206,6 +207,21 @@ fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
         ]
     };
     solved.solutions().into_iter().enumerate().map(line).collect()
+}
+
+/// Returns a warning about laws that dent, whose own error no uncertainty of the parameter has.
+fn law_errors(answers: &[Answer]) -> Option<String> {
+    let dents = |(family, answer): &Answer| {
+        (answer.is_ok() && family.strength_parameter().is_some()).then(|| family.name())
+    };
+    let names: Vec<&str> = answers.iter().filter_map(dents).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "± is by uncertain inputs alone, without the error of the law itself ({}): run the case with model.law, whose ± neglected \
+             has it",
+            names.join(", ")
+        )
+    })
 }
 
 /// Returns the part of each uncertain input in the error of each value.

@@ -249,7 +249,7 @@ fn a_range_may_be_of_temperatures() {
     assert_eq!(texts, ["-20 degC", "0 degC", "20 degC"]);
     // The picture has the scale of the user.
     let svg = place.text("runs/sweep/sweep.svg");
-    assert!(svg.contains(">temperature [°C]<") && svg.contains(">-20<"));
+    assert!(svg.contains(">temperature [°C]<") && svg.contains(">\u{2212}20<"));
 }
 
 /// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
