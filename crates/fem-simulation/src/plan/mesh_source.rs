@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-#[cfg(feature = "files")]
 use fem_case::engineering::show;
 use fem_case::{Plate, PlateSupport};
 use fem_material::Material;
