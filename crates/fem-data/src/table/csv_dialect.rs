@@ -151,7 +151,8 @@ pub(super) fn is_mean(cell: &str) -> bool {
         "standard deviation",
         "standardabweichung",
     ];
-    WORDS.contains(&cell.trim_end_matches([':', '.']).to_lowercase().as_str())
+    let cell = cell.trim_end_matches([':', '.']);
+    WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Whether a cell below a name is a unit, `cm`, `[cm]` or `(cm)`.

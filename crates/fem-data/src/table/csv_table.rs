@@ -138,8 +138,8 @@ impl Table {
         };
         let (header, header_line) = named_columns(&name, &text, separator)?;
         let mut header = with_signs_named(header);
-        let cells = cells(&name, &text, separator, (header.len(), kind))?;
-        let (cells, left_out) = without_means(cells, n_added);
+        let cells = cells(&name, &text, (separator, n_added), (header.len(), kind))?;
+        let (cells, left_out) = without_means(cells);
         let mut cells = split_uncertainties(&mut header, cells);
         let names = header.clone();
         let mut units = None;
@@ -155,7 +155,7 @@ impl Table {
             let all = |is: &dyn Fn(&str, usize) -> bool| {
                 (0..names.len()).all(|column| is(cells.cell(row, column), column))
             };
-            all(&|cell, column| column_name(cell) == names[column])
+            all(&|cell, column| cell.parse::<f64>().is_err() && column_name(cell) == names[column])
                 || units.as_ref().is_some_and(|units| all(&|cell, column| cell == units[column]))
         });
         let logarithmic = logarithms(&mut header);
@@ -451,18 +451,27 @@ impl Table {
     /// # Errors
     /// A cell has another text, or the unit of the column is of another dimension.
     pub fn numbers(&self, column: usize, dimension: [i32; 3]) -> Result<NumberColumn, DataError> {
+        let header = &self.header[column];
+        // The factor of bare numbers; other cells, and columns of another unit, are read one by one.
+        let factor = match ending_of(header) {
+            _ if self.logarithmic.contains(&column) => None,
+            Some(ending) => (ending.dimension == dimension).then_some(ending.scale),
+            None => (dimension == [0; 3] || !header.contains(['[', '('])).then_some(1.0),
+        };
         let mut values = Vec::with_capacity(self.n_rows());
         let mut last_digit = None;
         for row in 0..self.n_rows() {
             let text = self.text(row, column);
-            values.push(match is_missing(text) {
-                true => f64::NAN,
-                false => self.number(row, column, dimension)?,
-            });
             let point = if self.has_decimal_commas { with_point(text) } else { text.into() };
-            if let Some(decimals) = point.parse::<f64>().ok().map(|_| decimals(&point)) {
-                last_digit = last_digit.max(Some(decimals));
+            let bare = point.parse::<f64>().ok().filter(|value| value.is_finite());
+            if bare.is_some() {
+                last_digit = last_digit.max(Some(decimals(&point)));
             }
+            values.push(match (bare, factor) {
+                (Some(bare), Some(factor)) => bare * factor,
+                (None, _) if is_missing(text) => f64::NAN,
+                _ => self.number(row, column, dimension)?,
+            });
         }
         let scale = ending_of(&self.header[column]).map_or(1.0, |ending| ending.scale);
         let resolution = last_digit.map_or(0.0, |n| scale * 10f64.powi(-n));
@@ -560,7 +569,7 @@ fn named_columns(name: &str, text: &str, separator: u8) -> Result<(Vec<String>, 
 fn cells(
     name: &str,
     text: &str,
-    separator: u8,
+    (separator, n_added): (u8, u64),
     (n_columns, kind): (usize, Rows),
 ) -> Result<Cells, DataError> {
     let lines: Vec<&str> = text.lines().collect();
@@ -568,7 +577,8 @@ fn cells(
     let place = |position: Option<&csv::Position>| {
         let first = position.map_or(0, csv::Position::line) as usize;
         let above = lines.iter().skip(first.saturating_sub(1));
-        (first + above.take_while(|line| is_comment(line)).count()) as u64
+        let line = (first + above.take_while(|line| is_comment(line)).count()) as u64;
+        line.saturating_sub(n_added)
     };
     let mut cells = Cells::new(n_columns);
     let mut reader = reader(text, separator);
@@ -612,18 +622,17 @@ fn logarithms(header: &mut [String]) -> Vec<usize> {
 }
 
 /// Returns the cells without the rows below a series that spreadsheets compute, and a sentence about each.
-fn without_means(cells: Cells, n_added: u64) -> (Cells, Vec<String>) {
-    let mut rest = Cells::new(cells.n_columns());
-    let mut left_out = Vec::new();
-    for row in 0..cells.n_rows() {
-        let values = cells.row(row);
-        let line = cells.line(row).saturating_sub(n_added);
-        match values.iter().find(|cell| !cell.is_empty()).filter(|cell| is_mean(cell)) {
-            Some(word) => left_out.push(format!("line {line} is left out: {word}")),
-            None => rest.push(line, values.iter().map(String::as_str)),
-        }
+fn without_means(cells: Cells) -> (Cells, Vec<String>) {
+    fn mean(cells: &Cells, row: usize) -> Option<&str> {
+        let mut values = (0..cells.n_columns()).map(|column| cells.cell(row, column));
+        values.find(|cell| !cell.is_empty()).filter(|cell| is_mean(cell))
     }
-    (rest, left_out)
+    let sentence = |row: usize| {
+        let word = mean(&cells, row)?;
+        Some(format!("line {} is left out: {word}", cells.line(row)))
+    };
+    let left_out = (0..cells.n_rows()).filter_map(sentence).collect();
+    (cells.without(|cells, row| mean(cells, row).is_some()), left_out)
 }
 
 /// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.

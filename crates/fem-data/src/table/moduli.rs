@@ -255,9 +255,8 @@ impl<'a> Columns<'a> {
             let message = format!("there is no column of {what}; found are {found}");
             table.header_fault(message).with_help(COLUMNS)
         };
-        let mut abscissae = (0..roles.len()).filter_map(|column| Some((column, roles[column]?)));
-        let mut abscissae: Vec<_> =
-            abscissae.by_ref().filter(|(_, role)| role.is_abscissa()).collect();
+        let known = (0..roles.len()).filter_map(|column| Some((column, roles[column]?)));
+        let mut abscissae: Vec<_> = known.filter(|(_, role)| role.is_abscissa()).collect();
         if let [first, second] = abscissae[..]
             && agree(table, first, second)
         {

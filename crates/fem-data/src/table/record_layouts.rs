@@ -25,8 +25,7 @@ fn labels(text: &str, lines: &[&str]) -> Option<(String, u64)> {
     // A spectral selection is a line of its own, which begins with a backslash.
     let mut labels = lines.iter().filter(|line| !line.trim().is_empty() && !line.starts_with('\\'));
     let is_track = lines.first().is_some_and(is_label) && labels.all(is_label);
-    let text = text.replace("\n\\", "\n#");
-    is_track.then(|| (format!("time_s\tend_s\tlabel\n{text}"), 1))
+    is_track.then(|| ("time_s\tend_s\tlabel\n".to_string() + &text.replace("\n\\", "\n#"), 1))
 }
 
 /// Tektronix: settings in the first three columns, time and voltage in the fourth and the fifth, without a header.
