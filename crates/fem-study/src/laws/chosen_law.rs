@@ -76,7 +76,11 @@ pub fn family_of(scene: &Scene) -> Option<LawFamily> {
 /// Returns the yield strength at the reference rate of `material.NAME.flow.rate`, Pa, which the case's key has, for a strength of a law,
 /// which is at the strain rate of the contact; `None` for a law or for bodies that depend on no rate. The factor between both is that of
 /// the case's own strength and speed.
-pub fn strength_at_reference_rate(scene: &Scene, family: LawFamily, strength: f64) -> Option<f64> {
+pub(super) fn strength_at_reference_rate(
+    scene: &Scene,
+    family: LawFamily,
+    strength: f64,
+) -> Option<f64> {
     let index = family.parameters().iter().position(|it| it.key == "yield_strength")?;
     let at_contact =
         Reduced::parameters_of(scene, &LawInput { family, values: Vec::new() }).ok()?;

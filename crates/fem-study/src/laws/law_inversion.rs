@@ -1,12 +1,12 @@
 //! The parameter of a law that gives a wanted restitution at one speed.
 
-use fem_case::{Case, UncertainInput, central_change};
+use fem_case::{Case, Scene, UncertainInput, central_change};
 use fem_data::estimate::{InputPart, Inversion, Model, Point, Problem, SPEED, invert};
 use fem_data::table::Measured;
 use fem_laws::{LawFamily, LawParameter, ParameterRole};
 use serde_json::{Value, json};
 
-use super::chosen_law::ChosenLaw;
+use super::chosen_law::{ChosenLaw, strength_at_reference_rate};
 use super::law_fault::LawFault;
 use fem_data::estimate::{find_parameter, loss_parameter};
 
@@ -108,6 +108,15 @@ impl LawInversion {
     /// Returns the parameter that is found.
     pub fn parameter(&self) -> &'static LawParameter {
         &self.model.family().parameters()[self.index]
+    }
+
+    /// Returns the yield strength at the reference rate of a scene's flow rule, Pa, for one that is found; `None` if both are equal or
+    /// another parameter is found.
+    pub fn strength_at_reference_rate(&self, scene: &Scene, found: f64) -> Option<f64> {
+        match self.parameter().key {
+            "yield_strength" => strength_at_reference_rate(scene, self.model.family(), found),
+            _ => None,
+        }
     }
 
     /// Returns its values, SI, each with its contact time, s; `None` if the bodies stay together.

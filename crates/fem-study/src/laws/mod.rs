@@ -53,9 +53,7 @@ mod stored;
 mod stored_fit;
 
 pub(crate) use chosen_law::plate_of;
-pub use chosen_law::{
-    ChosenLaw, StandIn, family_of, model_of, strength_at_reference_rate, strength_words,
-};
+pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of, strength_words};
 pub use dem_export::{DemExport, FittedLaw};
 pub use fem_data::estimate::{
     ParameterError, check_value, find_parameter, loss_parameter, parse_value,

@@ -2,9 +2,7 @@
 
 use fem::fit::cradle::Measured;
 use fem::fit::{FitError, InputPart};
-use fem::laws::{
-    LawFault, LawInversion, family_of, needs_more, strength_at_reference_rate, strength_words,
-};
+use fem::laws::{LawFault, LawInversion, family_of, needs_more, strength_words};
 use fem_case::Case;
 use fem_case::engineering::{number, show};
 use fem_laws::LawFamily;
@@ -62,12 +60,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         match answer {
             Ok(solved) => {
                 rows.extend(lines(solved));
-                if solved.parameter().key == "yield_strength" {
-                    let at_reference =
-                        |(value, _)| strength_at_reference_rate(case.scene(), *family, value);
-                    let found = solved.solutions().into_iter().filter_map(at_reference);
-                    notes.extend(found.map(|it| format!("\n{}\n", strength_words(it))));
-                }
+                let at_reference =
+                    |(value, _)| solved.strength_at_reference_rate(case.scene(), value);
+                let found = solved.solutions().into_iter().filter_map(at_reference);
+                notes.extend(found.map(|it| format!("\n{}\n", strength_words(it))));
                 parts.extend(parts_of(solved));
             }
             Err(reason) => {
@@ -99,10 +95,7 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
             Ok(solved) => {
                 let all = solved.solutions().into_iter().enumerate();
                 solutions.extend(all.map(|(k, (value, contact_time))| {
-                    let of_key = solved.parameter().key == "yield_strength";
-                    let at_reference = of_key
-                        .then(|| strength_at_reference_rate(case.scene(), family, value))
-                        .flatten();
+                    let at_reference = solved.strength_at_reference_rate(case.scene(), value);
                     json!({
                         "law": family.name(),
                         "parameter": solved.parameter().key,
