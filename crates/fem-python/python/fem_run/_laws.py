@@ -387,6 +387,8 @@ def measure(
     sensor_mass: Quantity | None = None,
     speed: Quantity | None = None,
     force_uncertainty: Quantity | None = None,
+    frame_rate: Quantity | None = None,
+    scale: Quantity | None = None,
     columns: Columns | None = None,
 ) -> Measurement:
     """Turns a record of a bouncing ball into restitutions over speed: ``measure("drop.csv", height="50 cm ± 1 mm")``.
@@ -405,6 +407,8 @@ def measure(
         sensor_mass: mass between the sensor and the contact, for a force that the moving body measures.
         speed: approach speed of the first impact, for a force.
         force_uncertainty: relative standard uncertainty of the force.
+        frame_rate: frames per second of a track with a column of frames.
+        scale: length of a pixel of a track in pixels; by default gravity gives it.
         columns: names of the columns by their meaning: ``{"time": "t_ms"}``.
 
     Returns:
