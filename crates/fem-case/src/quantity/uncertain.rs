@@ -19,7 +19,10 @@ pub(crate) fn parse(text: &str) -> Result<(f64, Option<f64>, Dimension), UnitErr
         return Ok((value, None, dimension));
     };
     let malformed = |message: &str| Err(UnitError::Malformed(message.to_string()));
-    let (unit, unit_of_spread) = (unit_of(value)?, unit_of(spread)?);
+    let Ok(unit_of_spread) = unit_of(spread) else {
+        return malformed("no number follows the ±");
+    };
+    let unit = unit_of(value)?;
     if unit_of_spread != RELATIVE && unit_of_spread.contains(RELATIVE) {
         return malformed("its uncertainty is a share and has a unit: write one of both");
     }
@@ -76,5 +79,7 @@ mod tests {
         ] {
             assert!(parse(text).is_err(), "{text}");
         }
+        let error = parse("70 ± GPa").unwrap_err();
+        assert_eq!(error.to_string(), "no number follows the ±");
     }
 }

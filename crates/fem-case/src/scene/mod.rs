@@ -172,13 +172,14 @@ impl Scene {
         }
     }
 
-    /// Returns this scene with the bodies in contact at time 0 at this speed, m/s; `None` for a scene without gravity
-    /// and for a speed that is not positive and finite.
+    /// Returns this scene with the bodies in contact at time 0 at this speed, m/s; `None` for a speed that is not positive and finite.
     pub fn touching_at(&self, speed: f64) -> Option<Self> {
         let mut scene = self.clone();
-        scene.gravity?;
         scene.gap = Some(0.0);
-        scene.bodies[1].velocity = -speed;
+        scene.bodies[1].velocity = match self.gravity {
+            Some(_) => -speed,
+            None => scene.bodies[0].velocity - speed,
+        };
         (speed > 0.0 && speed.is_finite()).then_some(scene)
     }
 

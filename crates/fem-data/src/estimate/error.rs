@@ -1,7 +1,7 @@
 //! Errors of fits, inverse problems and cradle trials.
 
-use fem_laws::LawError;
-use fem_material::engineering::number;
+use fem_laws::{LawError, LawParameter};
+use fem_material::engineering::{number, show};
 use thiserror::Error;
 
 /// The data do not determine the result, or a collision cannot be computed.
@@ -57,13 +57,13 @@ pub enum FitError {
 
     /// No value of the parameter gives the restitution.
     #[error(
-        "no {key} gives a restitution of {wanted} at {} m/s: from {} to {} it runs from \
-         {} to {}",
-        number(*speed, 4), number(range.0, 4), number(range.1, 4), near_one(*least), near_one(*most), wanted = number(*wanted, 5)
+        "no {} gives a restitution of {wanted} at {}: from {} to {} it runs from {} to {}",
+        parameter.key, show(*speed, "m/s"), shown(range.0, parameter), shown(range.1, parameter), near_one(*least), near_one(*most),
+        wanted = number(*wanted, 5)
     )]
     NoSolution {
-        /// Key of the parameter.
-        key: &'static str,
+        /// The parameter that is searched.
+        parameter: &'static LawParameter,
         /// The wanted restitution.
         wanted: f64,
         /// Approach speed, m/s.
@@ -113,9 +113,17 @@ pub enum FitError {
 }
 
 /// Formats a restitution with enough digits to distinguish it from 0 and 1.
+fn shown(value: f64, parameter: &LawParameter) -> String {
+    match parameter.unit {
+        unit @ ("Pa" | "s" | "m/s") => show(value, unit),
+        unit => format!("{} {unit}", number(value, 4)).trim_end().to_string(),
+    }
+}
+
 fn near_one(restitution: f64) -> String {
     match restitution {
         e if e > 0.9999 => format!("1 - {:.1e}", 1.0 - e),
+        0.0 => "0".to_string(),
         e if e < 1e-3 => format!("{e:.1e}"),
         e => format!("{e:.4}"),
     }

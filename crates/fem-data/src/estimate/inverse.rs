@@ -52,6 +52,8 @@ pub fn invert(
     let (low, high) = match parameter.role {
         ParameterRole::Number => parameter.limits,
         ParameterRole::Rate => (-DECADES_OF_A_RATE, DECADES_OF_A_RATE),
+        // Bodies stronger than Hertz' peak pressure do not flow.
+        ParameterRole::Strength => (-DECADES, 0.0),
         _ => (-DECADES, DECADES),
     };
     let excess = |theta: f64| {
@@ -90,7 +92,7 @@ pub fn invert(
     }
     if solutions.is_empty() {
         return Err(FitError::NoSolution {
-            key: parameter.key,
+            parameter,
             wanted: restitution,
             speed,
             range: (value_at(low), value_at(high)),

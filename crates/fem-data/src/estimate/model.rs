@@ -89,6 +89,11 @@ impl Model {
         self.family
     }
 
+    /// Returns the plate that bends under the contact.
+    pub fn plate(&self) -> Option<&FreePlate> {
+        self.plate.as_ref()
+    }
+
     /// Returns the rule by which a contact ends.
     pub fn end_rule(&self) -> EndRule {
         self.end_rule

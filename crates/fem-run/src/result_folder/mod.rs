@@ -126,7 +126,7 @@ impl ResultFolder {
         let target = resolve(out)?;
         check_place(out, &target, |old| allows(origin.as_ref(), force, old, &target))?;
         let cannot = |error: io::Error| {
-            let what = format!("--out {}: a result", shown(out));
+            let what = format!("{}: a result", shown(out));
             unwritten(&what, &error, "name a folder in a place that you may write to")
         };
         let parent = target.parent().unwrap_or(Path::new("/")).to_path_buf();
@@ -170,13 +170,13 @@ impl ResultFolder {
         match placed {
             // The place was free for this result when it was claimed.
             Ok(beside) if is_whole && beside != self.shown => {
-                let message = format!("--out {place}: another result was written here meanwhile");
+                let message = format!("{place}: another result was written here meanwhile");
                 Err(Failure::failed(message)
                     .with_help(format!("that result stays; this one is in {}", shown(&beside))))
             }
             Ok(place) => Ok(place),
             Err(error) => {
-                let message = format!("--out {place}: the result cannot be moved here: {error}");
+                let message = format!("{place}: the result cannot be moved here: {error}");
                 let kept = format!("it is kept in {}", shown(&hidden.keep()));
                 Err(Failure::failed(message).with_help(kept))
             }
@@ -191,7 +191,7 @@ impl ResultFolder {
 
 fn resolve(out: &Path) -> Result<PathBuf, Failure> {
     let fault = |found: &str| {
-        Failure::bad_input(format!("--out {}: {found}", shown(out)))
+        Failure::bad_input(format!("{}: {found}", shown(out)))
             .with_help("name a folder for the result, such as --out runs/first")
     };
     if out.symlink_metadata().is_ok() {
@@ -217,7 +217,7 @@ fn check_place(
 ) -> Result<(), Failure> {
     let named = shown(out);
     let refuse = |found: &str| {
-        Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
+        Err(Failure::bad_input(format!("{named}: {found}")).with_help(
             "name another folder with --out, or move this one away; only result folders of fem-run \
              are replaced",
         ))
@@ -228,7 +228,7 @@ fn check_place(
         Ok(ExistingOutput::Absent) => Ok(()),
         Ok(ExistingOutput::Result(old)) if !allows(&old) => {
             let source = old.source().map_or(String::new(), |source| format!(": {source}"));
-            let message = format!("--out {named}: this folder holds another result{source}");
+            let message = format!("{named}: this folder holds another result{source}");
             Err(Failure::bad_input(message).with_help(
                 "name another folder with --out, or replace that result with --force; without it, a result \
                  replaces only one of the same files and overrides, or of the same case",

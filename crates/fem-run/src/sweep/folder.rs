@@ -68,7 +68,7 @@ impl SweepFolder {
         let out = &self.path;
         let named = shown(out);
         let refuse = |found: &str| {
-            Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
+            Err(Failure::bad_input(format!("{named}: {found}")).with_help(
                 "name another folder with --out, or move this one away; only a folder of fem-run \
                  sweep can be continued",
             ))
@@ -91,7 +91,7 @@ impl SweepFolder {
         match self.other_sweep() {
             None => Ok(()),
             Some(source) => {
-                let message = format!("--out {named}: this folder holds another sweep: {source}");
+                let message = format!("{named}: this folder holds another sweep: {source}");
                 Err(Failure::bad_input(message).with_help(
                     "name another folder with --out, or replace the table of that sweep with --force; its \
                      members stay",
@@ -112,7 +112,7 @@ impl SweepFolder {
         recover_leftovers(&out.join(MEMBERS));
         let _made = MadeFolders::above(&out.join(MEMBERS));
         self.prepare(mark).map_err(|error| {
-            let what = format!("--out {named}: a sweep");
+            let what = format!("{named}: a sweep");
             unwritten(&what, &error, "name a folder in a place that you may write to")
         })
     }

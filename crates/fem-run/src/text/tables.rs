@@ -71,7 +71,7 @@ pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
 }
 
 pub fn show_value(value: f64, unit: &str) -> String {
-    if ["s", "m/s"].contains(&unit) {
+    if ["s", "m/s", "Pa"].contains(&unit) {
         show(value, unit)
     } else if (0.01..1e5).contains(&value.abs()) || value == 0.0 {
         let digits = (3 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;

@@ -13,6 +13,8 @@ use crate::quantity_errors::QuantityErrors;
 pub struct ErrorEstimate {
     pub(crate) bars: QuantityErrors,
     pub(super) parts: [Option<BarParts>; 6],
+    /// Discretisation errors of the restitutions of the contacts of a bouncing ball, of no more than the first ten.
+    pub(crate) of_bounces: Vec<Option<f64>>,
     /// Loss of a relaxing run without relaxation.
     pub elastic_null: Option<ElasticNull>,
     /// Error of the recovered stress near the contact; `None` without a reference run or a snapshot.

@@ -150,6 +150,7 @@ impl ErrorEstimator {
         let elastic_null = elastic_null(simulation, collision, &mut self.runs);
         let stress_error = self.stress_error(simulation, collision);
         ErrorEstimate {
+            of_bounces: self.of_bounces(simulation, collision, &estimate),
             elastic_null,
             stress_error,
             decisions: simulation.decisions(collision),

@@ -1,7 +1,7 @@
 //! The methods, one file or folder each, and the method that a scene uses.
 
 mod auto;
-mod bouncing;
+pub(crate) mod bouncing;
 pub(crate) mod condensed;
 pub(crate) mod explicit;
 pub(crate) mod method;

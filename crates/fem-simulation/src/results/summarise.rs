@@ -242,8 +242,9 @@ fn bounces(
 ) -> Option<Vec<BounceSummary>> {
     simulation.case().scene().gravity()?;
     let measured = simulation.case().scene().measured_restitutions();
-    let bars = collision.bounces.iter().take(MAX_BARS_OF_BOUNCES);
-    let mut bars: Vec<Parts> = bars.map(|bounce| bar_of(simulation, bounce, errors)).collect();
+    let bars = collision.bounces.iter().zip(&errors.of_bounces);
+    let mut bars: Vec<Parts> =
+        bars.map(|(bounce, error)| bar_of(simulation, bounce, errors, *error)).collect();
     // A law keeps no dent, and what a contact on one returns is not known.
     let keeps_none = matches!(simulation.case().scene().model(), ModelChoice::Law { law, .. }
         if law.family.strength_parameter().is_some());
@@ -267,12 +268,13 @@ fn bounces(
     Some(contacts.collect())
 }
 
-/// Number of contacts of a bouncing ball that have error bars.
-const MAX_BARS_OF_BOUNCES: usize = 20;
-
-/// Returns the parts of the error bar of the restitution of one contact: the discretisation error of the first one, and the
-/// errors by inputs and neglected effects at its own speed.
-fn bar_of(simulation: &Simulation, bounce: &Bounce, errors: &ErrorEstimate) -> Parts {
+/// Returns the parts of the error bar of the restitution of one contact, with the errors by inputs and neglected effects at its own speed.
+fn bar_of(
+    simulation: &Simulation,
+    bounce: &Bounce,
+    errors: &ErrorEstimate,
+    discretisation: Option<f64>,
+) -> Parts {
     let Ok(approach) = Approach::new([0.0, -bounce.speed_before], 0.0) else {
         return Parts::default();
     };
@@ -284,7 +286,9 @@ fn bar_of(simulation: &Simulation, bounce: &Bounce, errors: &ErrorEstimate) -> P
     };
     let values = quantities(&contact, &mut Numbers { not_finite: Vec::new() });
     let effects = effects(simulation, &contact, &errors.decisions);
-    uncertainty(simulation, &contact, errors, &values, &effects).of(QuantityOfInterest::Restitution)
+    let quantity = QuantityOfInterest::Restitution;
+    let parts = uncertainty(simulation, &contact, errors, &values, &effects).of(quantity);
+    Parts { discretisation, ..parts }
 }
 
 /// Returns the dents of bodies that flowed.

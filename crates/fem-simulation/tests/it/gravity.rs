@@ -3,10 +3,38 @@
 use fem_collision::{Account, BalanceSide, Collision, Ending, HistoryRow, Monitor, Progress};
 use fem_simulation::Simulation;
 
-use crate::scene::{RUBBER_BALL as BALL, collision_of, decision_on, resolved, simulation_of};
+use crate::scene::{
+    RUBBER_BALL as BALL, THREE_BOUNCES, collision_of, decision_on, resolved, simulation_of,
+};
+
+/// The error bar of each contact holds beside elements a quarter as large at its own speed. The bars grow while the elements stay and
+/// the contact shrinks, and are other ones on the mesh that follows.
+#[test]
+fn each_contact_has_an_error_bar_of_its_own() {
+    for model in ["model.condensed={}", "model.fem={}"] {
+        let simulation = simulation_of(THREE_BOUNCES, &[model, "stop.bounces=6"]);
+        let found = simulation.run_within_tolerance(&mut ());
+        let summary = found.summary();
+        let bounces = summary.bounces.unwrap();
+        let bars: Vec<f64> =
+            bounces.iter().filter_map(|it| it.restitution_uncertainty.discretisation).collect();
+        assert!(bars.len() == bounces.len() && bars.windows(2).all(|two| two[0] != two[1]));
+        for (bounce, bar) in bounces.iter().zip(bars).skip(1) {
+            let (speed, e) = (bounce.speed_before_m_s.unwrap(), bounce.restitution.unwrap());
+            let at = format!("body.1.approach_speed={speed}");
+            let fine = ["model.condensed={}", "start.gap=0", "stop.bounces=1", &at, FINE];
+            let fine = simulation_of(THREE_BOUNCES, &fine).run(&mut ());
+            let error = (e - fine.restitution.unwrap()).abs();
+            // The smaller elements err by 2e-5 themselves.
+            assert!(error < bar + 2e-5 && bar < 0.01, "{model} at {speed}: {error} ± {bar}");
+        }
+    }
+}
 
 /// Elements that are as coarse as a test may have them: four across the first contact.
 const COARSE: &str = "mesh={contact_element_size='0.45 mm', refined_radius='1.8 mm'}";
+/// Elements a quarter as large as those of the shipped case.
+const FINE: &str = "mesh.contact_element_size='28 um'";
 const ELASTIC: &str = "material.rubber={density=1100, youngs_modulus=20e6, poissons_ratio=0.4}";
 const G: f64 = 9.81;
 

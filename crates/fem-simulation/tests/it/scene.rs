@@ -10,6 +10,7 @@ use fem_simulation::results::Summary;
 
 pub const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 pub const ELASTIC_GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+pub const THREE_BOUNCES: &str = include_str!("../../../../cases/three_bounces.toml");
 pub const SOFT_SPHERE: &str = include_str!("../../../../cases/soft_sphere.toml");
 pub const RUBBER_BALL: &str = include_str!("rubber_ball.toml");
 

@@ -8,7 +8,7 @@ use fem_material::{FlowRule, Material};
 
 use super::law_fault::LawFault;
 use fem_data::estimate::{check_value, find_parameter, loss_parameter};
-use fem_simulation::{Reduced, free_plate};
+use fem_simulation::{Reduced, free_plate, restitution_error};
 
 /// Returns the plate of a scene that bends under the contact.
 ///
@@ -260,6 +260,18 @@ impl ChosenLaw {
             (ParameterRole::Number, "eta_2") => Some(StandIn::PoissonsRatio),
             _ => None,
         }
+    }
+
+    /// Returns the law's own error of the restitution with values of all of its parameters, SI, at an approach speed, m/s: 0 for laws
+    /// that do not dent, whose parameters have no meaning apart from them.
+    pub(super) fn error_at(&self, scene: &Scene, values: &[f64], speed: f64) -> f64 {
+        if self.family().strength_parameter().is_none() {
+            return 0.0;
+        }
+        let keys = self.family().parameters().iter().map(|parameter| parameter.key);
+        let law =
+            LawInput { family: self.family(), values: keys.zip(values.iter().copied()).collect() };
+        restitution_error(scene, law, speed).unwrap_or(f64::NAN)
     }
 
     /// Replaces `guesses` by substitute values, in the order of the parameters.

@@ -1,8 +1,8 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
-use fem_case::Case;
 use fem_case::engineering::number;
 use fem_case::schema::End;
+use fem_case::{Case, central_change};
 use fem_data::estimate::{
     Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness, SPEED,
 };
@@ -45,6 +45,8 @@ pub struct LawFit<'a> {
     /// Parts of uncertain inputs of the case in the errors of θ of the free parameters, which are logarithms of scale factors and plain
     /// numbers.
     pub inputs: Vec<InputPart>,
+    /// Changes of θ of the free parameters by the law's own error; NaN if there is no fit with it. Zeros for laws that do not dent.
+    pub by_law: Vec<f64>,
     /// The fitted yield strength at the reference rate of the case's flow rule, Pa, if that is another.
     pub strength_at_reference_rate: Option<f64>,
 }
@@ -73,6 +75,7 @@ impl<'a> LawFit<'a> {
     ) -> Result<Self, LawFault> {
         let fit = problem.fit(confidence)?;
         let (profile, compared, inputs) = (None, Vec::new(), Vec::new());
+        let by_law = vec![0.0; fit.estimates.len()];
         Ok(Self {
             data,
             problem,
@@ -81,11 +84,13 @@ impl<'a> LawFit<'a> {
             compared,
             confidence,
             inputs,
+            by_law,
             strength_at_reference_rate: None,
         })
     }
 
-    /// Adds the uncertain inputs of the case to standard errors and intervals, by fitting again with each; `law` is that of the problem.
+    /// Adds the uncertain inputs of the case and the error of the law to standard errors and intervals, by fitting again with each; `law`
+    /// is that of the problem.
     pub fn with_inputs(mut self, case: &Case, law: &ChosenLaw) -> Self {
         let problem = &self.problem;
         let strength = self.fit.estimates.iter().find(|estimate| estimate.key == "yield_strength");
@@ -95,15 +100,31 @@ impl<'a> LawFit<'a> {
         });
         let own = problem.theta_of(&self.fit.values);
         let keys: Vec<&str> = self.fit.estimates.iter().map(|estimate| estimate.key).collect();
-        let refit = |case: &Case| {
-            let law = law.in_case(case).ok()?;
-            let near = law.problem(&self.data.points, &keys).ok()?.near(problem, &self.fit);
+        let refit = |law: &ChosenLaw, points: &[Point]| -> Option<Vec<f64>> {
+            let near = law.problem(points, &keys).ok()?.near(problem, &self.fit);
             let theta = near.theta_of(&near.solve().ok()?.0);
             Some(theta.iter().zip(&own).map(|(changed, own)| changed - own).collect())
         };
-        self.inputs = InputPart::of(case, keys.len(), &[SPEED], refit);
+        let points = &self.data.points;
+        self.inputs = InputPart::of(case, keys.len(), &[SPEED], |case| {
+            refit(&law.in_case(case).ok()?, points)
+        });
+        // The error of a law has one sign at all speeds.
+        let error = |point: &Point| law.error_at(case.scene(), &self.fit.values, point.speed);
+        let errors: Vec<f64> = points.iter().map(error).collect();
+        if errors.iter().any(|error| *error != 0.0) {
+            let shifted = |sign: f64| {
+                let shifted = points.iter().zip(&errors).map(|(point, error)| Point {
+                    restitution: (point.restitution + sign * error).clamp(0.0, 1.0),
+                    ..*point
+                });
+                let is_known = errors.iter().all(|error| error.is_finite());
+                is_known.then(|| refit(law, &shifted.collect::<Vec<_>>()))?
+            };
+            self.by_law = central_change(shifted).unwrap_or_else(|| vec![f64::NAN; keys.len()]);
+        }
         for (j, (estimate, free)) in self.fit.estimates.iter_mut().zip(&problem.free).enumerate() {
-            let error = InputPart::sum(&self.inputs, j);
+            let error = InputPart::sum(&self.inputs, j).hypot(self.by_law[j]);
             estimate.widen(error, problem.is_logarithmic(free), self.confidence);
         }
         self
@@ -114,6 +135,12 @@ impl<'a> LawFit<'a> {
         let free = self.problem.free.iter().find(|free| free.index == estimate.index);
         let is_logarithmic = free.is_some_and(|free| self.problem.is_logarithmic(free));
         if is_logarithmic { estimate.value } else { 1.0 }
+    }
+
+    /// Returns the part of the law's own error in the standard error of a free parameter, SI.
+    pub fn error_by_law(&self, estimate: &Estimate) -> f64 {
+        let own = self.fit.estimates.iter().position(|it| it.index == estimate.index);
+        own.map_or(0.0, |j| (self.scale_of(estimate) * self.by_law[j]).abs())
     }
 
     /// Adds the profile of a free parameter.

@@ -25,6 +25,8 @@ pub struct LawInversion {
     values: Vec<f64>,
     /// Changes of each value, SI, by the uncertainty of the restitution and of the inputs of the case.
     pub inputs: Vec<InputPart>,
+    /// Changes of each value, SI, by the law's own error; NaN if there is no solution with it. Zeros for laws that do not dent.
+    pub by_law: Vec<f64>,
 }
 
 impl LawInversion {
@@ -55,10 +57,11 @@ impl LawInversion {
         let values = law.values(&Problem::new(law.model(), &at_speed, &[])?.values);
         let model = law.model().clone();
         let inversion = invert(&model, index, &values, speed, restitution)?;
-        Ok(Self { model, index, inversion, speed, values, inputs: Vec::new() })
+        let by_law = vec![0.0; inversion.solutions.len()];
+        Ok(Self { model, index, inversion, speed, values, inputs: Vec::new(), by_law })
     }
 
-    /// Adds the uncertainties of the restitution and of the inputs of the case, by solving again with each. `law` is that of the
+    /// Adds the uncertainties of the restitution, of the inputs of the case and of the law, by solving again with each. `law` is that of the
     /// inversion; the speed is that of the case unless one is `given`.
     pub fn with_inputs(
         mut self,
@@ -86,6 +89,17 @@ impl LawInversion {
             let input = UncertainInput { key: "restitution".to_string(), value, uncertainty };
             inputs.insert(0, InputPart { input, changes });
         }
+        let by_law = |k: usize| {
+            let mut values = self.values.clone();
+            values[self.index] = own[k];
+            let error = law.error_at(case.scene(), &values, self.speed);
+            let at = |sign: f64| match error {
+                0.0 => Some(vec![0.0; own.len()]),
+                _ => changes(law, self.speed, value + sign * error),
+            };
+            central_change(at).map_or(f64::NAN, |changes| changes[k].abs())
+        };
+        self.by_law = (0..own.len()).map(by_law).collect();
         self.inputs = inputs;
         self
     }
@@ -101,8 +115,9 @@ impl LawInversion {
 
     /// Returns the standard error of a solution, SI; `None` if nothing is uncertain or there is no solution with an input.
     pub fn standard_error(&self, solution: usize) -> Option<f64> {
-        let error = InputPart::sum(&self.inputs, solution);
-        (!self.inputs.is_empty() && error.is_finite()).then_some(error)
+        let error = InputPart::sum(&self.inputs, solution).hypot(self.by_law[solution]);
+        let is_exact = self.inputs.is_empty() && self.by_law[solution] == 0.0;
+        (!is_exact && error.is_finite()).then_some(error)
     }
 
     /// Returns the parameter that is found.

@@ -59,6 +59,7 @@ impl LawFit<'_> {
             "free": estimate.is_some(),
             "standard_error": estimate.and_then(|estimate| estimate.standard_error),
             "standard_error_of_data": estimate.and_then(|estimate| estimate.error_of_data),
+            "standard_error_of_law": estimate.map(|estimate| self.error_by_law(estimate)),
             "interval": estimate.and_then(|estimate| estimate.interval),
             "at_bound": estimate.is_some_and(|estimate| estimate.is_at_bound),
             "profile_interval": profile.and_then(|profile| profile.interval),

@@ -38,7 +38,7 @@ pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
 
 /// Returns a value with its standard error in one unit, `569 ± 197 µs`.
 pub fn with_error(value: f64, error: Option<f64>, unit: &str) -> String {
-    let (unit, scale) = match ["s", "m/s"].contains(&unit) {
+    let (unit, scale) = match ["s", "m/s", "Pa"].contains(&unit) {
         true => {
             let fitting = Unit::fitting(value, unit);
             (fitting.symbol().to_string(), fitting.scaled(1.0))
@@ -129,10 +129,17 @@ fn errors_by_inputs(fitted: &LawFit<'_>) -> String {
             _ => format!(", no fit with {}", relative(&part.input)),
         };
         let parts: String = fitted.inputs.iter().map(part).collect();
-        format!("standard error of {}: {data} by the data{parts}\n", estimate.key)
+        let law = match fitted.error_by_law(estimate) {
+            0.0 => String::new(),
+            error if error.is_finite() => {
+                format!(", {} by the law itself", show_value(error, unit))
+            }
+            _ => ", no fit within the error of the law itself".to_string(),
+        };
+        format!("standard error of {}: {data} by the data{parts}{law}\n", estimate.key)
     };
-    let has_inputs = !fitted.inputs.is_empty();
-    fitted.fit.estimates.iter().enumerate().filter(|_| has_inputs).map(row).collect()
+    let has_parts = !fitted.inputs.is_empty() || fitted.by_law.iter().any(|part| *part != 0.0);
+    fitted.fit.estimates.iter().enumerate().filter(|_| has_parts).map(row).collect()
 }
 
 /// Returns a line for each law that is compared.

@@ -54,7 +54,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
-    standard_output::warn(law_errors(&answers));
     let (mut rows, mut parts, mut notes) = (Vec::new(), Vec::new(), String::new());
     for (family, answer) in &answers {
         match answer {
@@ -102,6 +101,7 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
                         "value": value,
                         "standard_error": solved.standard_error(k),
                         "inputs": solved.input_numbers(k),
+                        "by_law": solved.by_law[k],
                         "contact_time_s": contact_time,
                         "strength_at_reference_rate_pa": at_reference,
                     })
@@ -179,6 +179,12 @@ fn solve(
             Failure::bad_input(error.to_string())
                 .with_help("its coefficient holds for small losses only; choose another law")
         }
+        LawFault::Fit(error @ FitError::NoSolution { wanted, most, .. })
+            if wanted > most && law.model().plate().is_some() =>
+        {
+            let help = "waves in the plate take the rest: check thickness, speed and support";
+            Failure::bad_input(error.to_string()).with_help(help)
+        }
         fault => fault.into(),
     });
     Ok(solved?.with_inputs(case, &law, arguments.restitution, arguments.speed))
@@ -202,32 +208,20 @@ fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
     solved.solutions().into_iter().enumerate().map(line).collect()
 }
 
-/// Returns a warning about laws that dent, whose own error no uncertainty of the parameter has.
-fn law_errors(answers: &[Answer]) -> Option<String> {
-    let dents = |(family, answer): &Answer| {
-        (answer.is_ok() && family.strength_parameter().is_some()).then(|| family.name())
-    };
-    let names: Vec<&str> = answers.iter().filter_map(dents).collect();
-    (!names.is_empty()).then(|| {
-        format!(
-            "± is by uncertain inputs alone, without the error of the law itself ({}): run the case with model.law, whose ± neglected \
-             has it",
-            names.join(", ")
-        )
-    })
-}
-
-/// Returns the part of each uncertain input in the error of each value.
+/// Returns the part of each uncertain input, and that of the law, in the error of each value.
 fn parts_of(solved: &LawInversion) -> Vec<[String; 4]> {
     let parameter = solved.parameter();
-    let row = |part: &InputPart| {
-        let shown = |change: &f64| match change.abs() {
-            change if change.is_finite() => show_value(change, parameter.unit),
-            _ => "no solution".to_string(),
-        };
-        let changes: Vec<String> = part.changes.iter().map(shown).collect();
-        let law = solved.model.family().name().to_string();
-        [relative(&part.input), law, parameter.key.to_string(), changes.join(", ")]
+    let shown = |change: &f64| match change.abs() {
+        change if change.is_finite() => show_value(change, parameter.unit),
+        _ => "no solution".to_string(),
     };
-    solved.inputs.iter().map(row).collect()
+    let row = |by: String, changes: &[f64]| {
+        let changes: Vec<String> = changes.iter().map(shown).collect();
+        let law = solved.model.family().name().to_string();
+        [by, law, parameter.key.to_string(), changes.join(", ")]
+    };
+    let by_input = |part: &InputPart| row(relative(&part.input), &part.changes);
+    let dents = solved.by_law.iter().any(|change| *change != 0.0);
+    let by_law = dents.then(|| row("the law itself".to_string(), &solved.by_law));
+    solved.inputs.iter().map(by_input).chain(by_law).collect()
 }

@@ -142,6 +142,13 @@ fn every_command_names_the_file_and_the_limit_and_leaves_nothing_cut() {
         ("report run --out new.html", &[0, 1], "new.html", &[]),
         ("plot run --what force --out new.svg", &[0, 1], "new.svg", &[]),
         ("sweep sweep.toml --out made/new", &[0], "made/new", &[]),
+        ("accuracy case.toml --budget 0.1 --out made/new", &[0, 1], "", &[]),
+        (
+            "cradle --length 20cm --diameters 2cm,2cm --data DATA/cradle_trials.csv --out made/new",
+            &[0],
+            "",
+            &[],
+        ),
         ("new new", &[0, 1], "new.toml", &[]),
         ("new new", &[10], "fem-run.schema.json", &["new.toml"]),
     ] {

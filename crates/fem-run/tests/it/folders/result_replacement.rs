@@ -44,9 +44,9 @@ fn a_named_folder_of_another_case_is_refused() {
     let place = Place::new();
     place.succeed((TING, "--out out"));
     let before = place.result("out");
-    place.fails(2, (SLOWER, "--out out")).tells(
-        "--out out: this folder holds another result: run ../case.toml model.ting={}|--force",
-    );
+    place
+        .fails(2, (SLOWER, "--out out"))
+        .tells("out: this folder holds another result: run ../case.toml model.ting={}|--force");
     assert_eq!(
         (place.result("out"), place.list(".")),
         (before, vec!["case.toml".into(), "out".into()])

@@ -390,7 +390,7 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
     fs::create_dir(place.path("mine")).unwrap();
     place.write("mine/notes.txt", "mine");
     for out in ["result", "file", "mine", "file/below", "."] {
-        place.fails(2, ["sweep", "sweep.toml", "--out", out]).tells(format!("--out {out}"));
+        place.fails(2, ["sweep", "sweep.toml", "--out", out]).tells(format!("{out}: "));
     }
     assert_eq!(place.list("mine"), ["notes.txt"]);
     // The same message without a run.

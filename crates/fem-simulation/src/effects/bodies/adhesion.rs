@@ -30,21 +30,25 @@ impl Effect for AdhesionEffect {
         let (adhesion, work) = (adhesion_of(scene)?, scene.work_of_adhesion());
         let (speed, sticking) = (estimate.hertz.approach_speed(), adhesion.sticking_speed());
         let (shown, below) = (show(work.value(), "J/m^2"), show(sticking, "m/s"));
-        let loss = loss_above(scene, &adhesion, speed, scene.accuracy().restitution);
+        let loss =
+            loss_above(scene, &largest(scene, &adhesion), speed, scene.accuracy().restitution);
         let sticks = speed < sticking;
         let lost = format!(
             "{} {} of the restitution",
-            if adhesion.is_jkr() { "about" } else { "at most" },
+            if adhesion.is_jkr() && scene.adhesion_uncertainty() == 0.0 {
+                "about"
+            } else {
+                "at most"
+            },
             number(loss.unwrap_or_default(), 2)
         );
         let warning = match work {
-            WorkOfAdhesion::Given(_) if sticks && is_open(shares(scene, &adhesion, speed)) => {
-                Some(format!(
-                    "the bodies may stay together by adhesion, as in this run: by closed forms they stick below {below}, and \
-                     the approach speed is {}; history and fields are those without adhesion",
-                    show(speed, "m/s")
-                ))
-            }
+            WorkOfAdhesion::Given(_) if is_open(shares(scene, &adhesion, speed)) => Some(format!(
+                "the bodies may stay together by adhesion{}: by closed forms they stick below {below}, and the approach speed is \
+                 {}; history and fields are those without adhesion",
+                if sticks { ", as in this run" } else { "" },
+                show(speed, "m/s")
+            )),
             WorkOfAdhesion::Given(_) if sticks => Some(format!(
                 "the bodies stay together by adhesion: they stick below {below}, and the approach speed is {}; history and \
                  fields are those without adhesion",
@@ -155,10 +159,8 @@ impl Effect for AdhesionEffect {
             };
         };
         let speed = estimate.hertz.approach_speed();
-        // A work of adhesion may be larger by its uncertainty.
-        let most = adhesion.work_of_adhesion() + scene.adhesion_uncertainty();
-        let most = Adhesion::new(adhesion.pair(), most);
-        let errors = NeglectError::errors_of(estimate, changes(scene, &most, estimate));
+        let changes = changes(scene, &largest(scene, &adhesion), estimate);
+        let errors = NeglectError::errors_of(estimate, changes);
         let share = (adhesion.sticking_speed() / speed).powi(2);
         let open = match is_open(shares(scene, &adhesion, speed)) {
             true => restitution_without(scene, speed),
@@ -194,6 +196,12 @@ impl AdhesionEffect {
             || Self::given(scene).is_some()
             || adhesion_of(scene).is_some_and(sticks)
     }
+}
+
+/// Returns the adhesion that is larger by the uncertainty of its work.
+fn largest(scene: &Scene, adhesion: &Adhesion) -> Adhesion {
+    let most = adhesion.work_of_adhesion() + scene.adhesion_uncertainty();
+    Adhesion::new(adhesion.pair(), most)
 }
 
 /// Returns whether it is open whether bodies stick, for a range of the separation energy over the kinetic one.

@@ -35,6 +35,7 @@ use crate::models::method::{Cost, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::method_of;
 use crate::models::stepper::{RestartState, Stepper, stopped};
 use crate::models::sticking::{Bond, Sticking};
+use crate::plan::Plan;
 use crate::rejection::Rejection;
 use bounced::Bounced;
 pub(crate) use bounced::Bounces;
@@ -122,15 +123,16 @@ impl Ball {
         speed: f64,
     ) -> Result<Option<Box<dyn Model>>, Stop> {
         let Some(elements) = &present.setup().elements else { return Ok(None) };
-        let is_given = self.scene.mesh().contact_element_size.is_some();
-        if is_given || !elements.plan.makes_meshes {
-            return Ok(None);
+        let radius = estimate_at(&self.scene, speed)?.contact_radius;
+        match is_made_again(
+            &self.scene,
+            &elements.plan,
+            elements.plan.estimate.contact_radius,
+            radius,
+        ) {
+            true => self.made_at(speed).map(Some),
+            false => Ok(None),
         }
-        let estimate = estimate_at(&self.scene, speed)?;
-        if estimate.contact_radius >= MIN_SHARE * elements.plan.estimate.contact_radius {
-            return Ok(None);
-        }
-        self.made_at(speed).map(Some)
     }
 
     /// Returns the model for a contact at a speed, m/s.
@@ -203,6 +205,32 @@ impl Model for Bouncing {
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         self.ball.first.meshes()
     }
+}
+
+/// Returns whether a mesh that was made for a contact radius, m, is made again for a smaller one.
+fn is_made_again(scene: &Scene, plan: &Plan, made_for: f64, radius: f64) -> bool {
+    let is_free = plan.makes_meshes && scene.mesh().contact_element_size.is_none();
+    is_free && radius < MIN_SHARE * made_for
+}
+
+/// Returns the element size at the contact, m, of contacts at these speeds, m/s, if the first has `size`; `None` for a speed without a
+/// Hertz impact.
+pub(crate) fn element_sizes(
+    scene: &Scene,
+    plan: &Plan,
+    size: f64,
+    speeds: impl Iterator<Item = f64>,
+) -> Vec<Option<f64>> {
+    let first = plan.estimate.contact_radius;
+    let mut made_for = first;
+    let of_speed = |speed: f64| {
+        let radius = estimate_at(scene, speed).ok()?.contact_radius;
+        if is_made_again(scene, plan, made_for, radius) {
+            made_for = radius;
+        }
+        Some(size * made_for / first)
+    };
+    speeds.map(of_speed).collect()
 }
 
 /// Returns the output request of the first contact, which begins at a time (s) of the case.
