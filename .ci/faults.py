@@ -114,6 +114,9 @@ FAULTS = [
     ("yield_in_error_bars", "fem-simulation:plastic_yield",
      "match status.is_lacking && !Onset::of_yielding(scene, estimate).is_empty() {",
      "match status.is_lacking && Onset::of_yielding(scene, estimate).is_empty() {"),
+    ("error_of_a_law_that_dents", "fem:laws", "central_change(at).map_or(f64::NAN, |changes| changes[k].abs())", "0.0 * error"),
+    ("error_bars_of_later_contacts", "fem-simulation:gravity", "Some(parts.sum().max(floor))",
+     "first.discretisation(restitution).filter(|_| parts.sum() + floor > 0.0)"),
     ("matters_before_the_run", "fem-simulation:what_matters", "let matters = is_physics || is_lacking && is_needed || is_warned;",
      "let matters = is_physics || is_lacking && is_needed; let _ = is_warned;"),
     ("matters_after_the_run", "fem-simulation:what_matters",
@@ -145,8 +148,8 @@ FAULTS = [
     ("names_of_uncertainties", "fem-data:measured", 'format!("{word}({name})")', 'format!("{word}[{name}]")'),
     # A whole collision
     ("summary_cost_unit", "fem-run:result_folder", "1e9 * cost.solve_s / updates as f64", "1e6 * cost.solve_s / updates as f64"),
-    ("history_column", "fem-run:result_folder", '"contact_radius_m", "approach_m", "centre_pressure_pa"]',
-     '"approach_m", "contact_radius_m", "centre_pressure_pa"]'),
+    ("history_column", "fem-run:result_folder", 'column("contact_radius_m", &|row| row.contact_radius),',
+     'column("contact_radius_m", &|row| Some(row.approach)),'),
     ("contact_file_slip", "fem-simulation:contact_profile", "let slip = place.radial[1] - place.radial[0];",
      "let slip = place.radial[0] - place.radial[1];"),
     # The command

@@ -74,6 +74,13 @@ fn result_has_the_documented_keys_and_files() {
                   viscous_dissipation_j,residual_j";
     assert_eq!(history.lines().next(), Some(header));
     assert!((500..4100).contains(&history.lines().count()), "{}", history.lines().count());
+    // The largest values of the columns are those of the summary, up to the time between two rows.
+    let keys = ["peak_force_n", "max_contact_radius_m", "max_approach_m", "peak_pressure_pa"];
+    for (column, key) in (1..).zip(keys) {
+        let cells = history.lines().skip(1).map(|row| row.split(',').nth(column).unwrap());
+        let largest = cells.filter_map(|cell| cell.parse::<f64>().ok()).fold(0.0, f64::max);
+        assert!((largest / number(&summary[key]) - 1.0).abs() < 2e-3, "{key}: {largest}");
+    }
 
     let maximum = VtuFile::open(place.path("runs/case/case_1_maximum.vtu")).unwrap();
     let mesh = maximum.quad_mesh().unwrap();
