@@ -6,14 +6,12 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::bounce_times::Instants;
-use super::series::{FlightSpan, MAX_TERMS, Misfit, Scatter, drops, scatter, widened};
+use super::series::{CHANCE, FlightSpan, Misfit, Scatter, drops, fewest_terms, scatter};
 
-/// Probability that a record of scattering instants only loses one of them.
-const FALSE_ALARM: f64 = 1e-3;
 /// Flights whose ends are tried, those with the largest residuals.
 const TRIED: usize = 6;
 /// Fewest degrees of freedom of the fit to the others.
-const FEWEST_FREEDOM: f64 = 3.0;
+const FEWEST_FREEDOM: f64 = 4.0;
 /// Ratio of two scatters of few flights that is no difference.
 const AS_LITTLE: f64 = 1.5;
 /// Most instants that are left out.
@@ -67,7 +65,7 @@ fn without_bad_instants(
     spans: Vec<FlightSpan>,
     known: Option<f64>,
 ) -> (Vec<FlightSpan>, Vec<usize>) {
-    let mut best = (FALSE_ALARM, spans.clone(), Vec::new());
+    let mut best = (CHANCE, spans.clone(), Vec::new());
     let (mut rest, mut taken, mut n_ways) = (spans.clone(), Vec::new(), 1.0);
     let n = instants.len() as f64;
     for depth in 0..((LARGEST_SHARE * n) as usize).min(MOST) {
@@ -131,29 +129,22 @@ fn without(spans: &[FlightSpan], instant: usize) -> Vec<FlightSpan> {
 
 /// Returns the probability that the flights that `rest` lacks fit as badly by chance; `None` if too few are left.
 fn chance(instants: &[f64], [spans, rest]: [&[FlightSpan]; 2], known: Option<f64>) -> Option<f64> {
-    let of = |n_terms: usize| {
-        let [all, others] = [spans, rest].map(|spans| Misfit::of_all(instants, spans, n_terms));
-        let (all, others) = (all?, others?);
-        let freedom = others.freedom();
-        let left_out = all.trace - others.trace;
-        if freedom < FEWEST_FREEDOM || left_out <= 0.0 {
-            return None;
-        }
-        let of_scatter = others.squares / others.trace;
-        let variance = known.map_or(of_scatter, |known| known * known);
-        // Neighbouring flights, which share an instant, vary together by up to twice their mean variance.
-        let ratio = (0.5 * (all.squares - others.squares) / left_out / variance).max(0.0);
-        // Each flight has the variance of two instants.
-        let n_flights = (0.5 * left_out).max(1.0);
-        let chance = match (ratio.is_finite(), known) {
-            (false, _) => 0.0,
-            (_, None) => FisherSnedecor::new(n_flights, freedom).ok()?.sf(ratio),
-            (_, Some(_)) => ChiSquared::new(n_flights).ok()?.sf(ratio * n_flights),
-        };
-        Some((widened(freedom) * of_scatter.sqrt(), chance))
-    };
-    // The fewest terms that fit as well: more of them would follow a bad instant at an end.
-    let found: Vec<(f64, f64)> = (2..=MAX_TERMS).filter_map(of).collect();
-    let least = found.iter().fold(f64::INFINITY, |least, (spread, _)| least.min(*spread));
-    found.iter().find(|(spread, _)| *spread <= AS_LITTLE * least).map(|(_, chance)| *chance)
+    let n_terms = fewest_terms(instants, rest);
+    let [all, others] = [spans, rest].map(|spans| Misfit::of_all(instants, spans, n_terms));
+    let (all, others) = (all?, others?);
+    let freedom = others.freedom();
+    let left_out = all.trace - others.trace;
+    if freedom < FEWEST_FREEDOM || left_out <= 0.0 {
+        return None;
+    }
+    let variance = known.map_or(others.squares / others.trace, |known| known * known);
+    // Neighbouring flights, which share an instant, vary together by up to twice their mean variance.
+    let ratio = (0.5 * (all.squares - others.squares) / left_out / variance).max(0.0);
+    // Each flight has the variance of two instants.
+    let n_flights = (0.5 * left_out).max(1.0);
+    match (ratio.is_finite(), known) {
+        (false, _) => Some(0.0),
+        (_, None) => Some(FisherSnedecor::new(n_flights, freedom).ok()?.sf(ratio)),
+        (_, Some(_)) => Some(ChiSquared::new(n_flights).ok()?.sf(ratio * n_flights)),
+    }
 }

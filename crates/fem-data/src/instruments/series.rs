@@ -7,6 +7,7 @@
 use std::cmp::Ordering;
 
 use nalgebra::DVector;
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use crate::estimate::{median, quantile};
 
@@ -37,8 +38,13 @@ const FEWEST: usize = 4;
 pub(super) const MAX_TERMS: usize = 5;
 /// Fewest degrees of freedom of a polynomial that is no line.
 const FEWEST_FREEDOM: f64 = 2.0;
+/// Steps of the fit to the durations, from their logarithms.
+const NEWTON_STEPS: usize = 4;
 /// Confidence of the interval that two standard uncertainties are.
 const CONFIDENCE: f64 = 0.95;
+/// Probability below which a fit is not better by chance: with one more term, or without a bad instant. Of 2,600 records with one to
+/// three bad instants 15 have a restitution that is off by more than three bars.
+pub(super) const CHANCE: f64 = 1e-3;
 
 /// Returns the flights between increasing instants.
 pub(super) fn flight_spans(instants: &[f64]) -> Vec<FlightSpan> {
@@ -223,9 +229,28 @@ pub(super) fn scatter(instants: &[f64], spans: &[FlightSpan]) -> Option<Scatter>
         };
         Some(Scatter { uncertainty, freedom, residuals: spans.iter().map(residual).collect() })
     };
-    let line = of(2);
-    let others = (3..=MAX_TERMS).filter_map(of).filter(|other| other.freedom >= FEWEST_FREEDOM);
-    line.into_iter().chain(others).min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty))
+    of(fewest_terms(instants, spans))
+}
+
+/// Returns the number of terms of the polynomial: three, or two of few flights, and more only if chance hardly makes the fit so much
+/// better. Terms that follow the scatter of few flights, or a bad instant at their end, would make bars several times too small.
+pub(super) fn fewest_terms(instants: &[f64], spans: &[FlightSpan]) -> usize {
+    let misfit = |n_terms| Misfit::of_all(instants, spans, n_terms);
+    let is_free = |found: &Misfit| found.freedom() >= FEWEST_FREEDOM;
+    let Some(mut best) = misfit(3).filter(is_free) else { return 2 };
+    let mut n_best = 3;
+    // A record that has lost instants may have more bad ones.
+    let is_whole = spans.len() + 1 == instants.len();
+    let chance = if is_whole { CHANCE } else { 0.1 * CHANCE };
+    for n_terms in 4..=MAX_TERMS {
+        let Some(more) = misfit(n_terms).filter(is_free) else { break };
+        let of_terms = (best.squares - more.squares) / (best.trace - more.trace);
+        let ratio = (of_terms * more.trace / more.squares).max(0.0);
+        if FisherSnedecor::new(1.0, more.freedom()).is_ok_and(|f| f.sf(ratio) < chance) {
+            (best, n_best) = (more, n_terms);
+        }
+    }
+    n_best
 }
 
 /// The misfit of single flights of a drop, and that which scattering instants would have.
@@ -238,6 +263,28 @@ pub(super) struct Misfit {
     trace_of_square: f64,
     /// Residual, s, of each flight, with the index of the instant at its beginning.
     residuals: Vec<(usize, f64)>,
+}
+
+/// Returns orthonormal polynomials over the places of flights, with weights.
+fn polynomials(
+    weights: &DVector<f64>,
+    n_terms: usize,
+    place: impl Fn(usize) -> f64,
+) -> Vec<DVector<f64>> {
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for power in 0..n_terms {
+        let mut term =
+            DVector::from_fn(weights.len(), |k, _| weights[k] * place(k).powi(power as i32));
+        // Twice is enough (Kahan and Parlett).
+        for _ in 0..2 {
+            for known in &basis {
+                term -= known * known.dot(&term);
+            }
+        }
+        let length = term.norm();
+        basis.push(term / length);
+    }
+    basis
 }
 
 impl Misfit {
@@ -284,23 +331,19 @@ impl Misfit {
             singles.iter().map(|k| instants[spans[*k].to] - instants[spans[*k].from]),
         );
         let middle = 0.5 * (numbers[singles[0]] + numbers[singles[n - 1]]);
-        let mut basis: Vec<DVector<f64>> = Vec::new();
-        for power in 0..n_terms {
-            let mut term = DVector::from_fn(n, |k, _| {
-                durations[k] * ((numbers[singles[k]] - middle) / (middle + 1.0)).powi(power as i32)
-            });
-            // Twice is enough (Kahan and Parlett).
-            for _ in 0..2 {
-                for known in &basis {
-                    term -= known * known.dot(&term);
-                }
+        let place = |k: usize| (numbers[singles[k]] - middle) / (middle + 1.0);
+        // Gauss and Newton: a flight that is much too short has the weight of its own place in the series.
+        let mut fitted = durations.clone();
+        let (mut basis, mut residuals) = (Vec::new(), durations.clone());
+        for _ in 0..NEWTON_STEPS {
+            basis = polynomials(&fitted, n_terms, place);
+            let mut response = fitted.zip_map(&durations, |fit, own| fit * fit.ln() + own - fit);
+            residuals.copy_from(&response);
+            for known in &basis {
+                residuals -= known * known.dot(&residuals);
             }
-            let length = term.norm();
-            basis.push(term / length);
-        }
-        let mut residuals = durations.map(|duration| duration * duration.ln());
-        for known in &basis {
-            residuals -= known * known.dot(&residuals);
+            response -= &residuals;
+            fitted = response.zip_map(&fitted, |response, fit| (response / fit).exp());
         }
         let is_shared = |k: usize| spans[singles[k]].from == spans[singles[k - 1]].to;
         let covariance = |x: &DVector<f64>| {

@@ -141,13 +141,15 @@ fn missing_and_additional_instants_are_found() {
 }
 
 /// Phone records with one to three bad instants, late or early by 15 to 60 ms, some of them the last ones, which a hand
-/// stops: what is left out is named, no restitution is off by more than three of its bars, and bars stay those of the
-/// other instants. In other draws about one record in twenty exceeds that.
+/// stops: what is left out is named, no restitution is off by more than three of its bars but in 6 records of
+/// a thousand, and bars
+/// stay those of the other instants.
 #[test]
 fn bad_instants_do_not_spoil_the_others() {
+    const RECORDS: usize = 400;
     let mut noise = Noise::seeded(11);
-    let (mut n_impacts, mut n_true, mut bars) = (0, 0, Vec::new());
-    for record in 0..65 {
+    let (mut n_impacts, mut n_true, mut n_spoilt, mut bars) = (0, 0, 0, Vec::new());
+    for record in 0..RECORDS {
         let e0 = noise.between(0.7, 0.94);
         let loss = noise.between(0.0, 0.01);
         let scatter = noise.between(0.3e-3, 1.5e-3);
@@ -172,22 +174,25 @@ fn bad_instants_do_not_spoil_the_others() {
             let shift = noise.between(15e-3, 60e-3).min(0.6 * gap);
             times[at] += if record % 4 < 2 { shift } else { -shift };
         }
-        let found = bounces(&list(times), &Rig::default());
+        // An instant that is moved before another one is refused.
+        let Ok(Record::BounceTimes(found)) = read(&list(times), &Rig::default()) else { continue };
         n_impacts += found.impacts.len();
         bars.push(found.time_uncertainty / scatter);
-        for impact in &found.impacts {
+        let is_off = |impact: &Impact| {
             let near = |k: &usize| (truth[*k] - impact.time).abs();
             let k = (1..n).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap();
             let e = impact.restitution;
-            let off = (e.value - e_after[k]).abs() / e.uncertainty;
-            assert!(off < 3.0, "{record}: {off} {impact:?} {:?}", found.warnings);
-        }
+            (e.value - e_after[k]).abs() > 3.0 * e.uncertainty
+        };
+        n_spoilt += usize::from(found.impacts.iter().any(is_off));
         let is_named = found.instants.values.len() == 1 + found.spans.len()
             || found.warnings.iter().any(|it| it.contains("left out"));
         assert!(is_named, "{record}: {:?}", found.warnings);
     }
     bars.sort_by(f64::total_cmp);
-    assert!(bars[32] < 2.0, "{bars:?}");
+    assert!(bars[bars.len() / 2] < 2.0, "{}", bars[RECORDS / 2]);
+    // 2.4 are expected of 400, and more than six of less than one draw in fifty.
+    assert!(n_spoilt <= 6, "{n_spoilt}");
     assert!(n_impacts * 10 > 6 * n_true, "{n_impacts} of {n_true}");
     // The last two of a public record are a hand: the others scatter by half a millisecond, and the ball would rest after 8.8 s.
     let times = [

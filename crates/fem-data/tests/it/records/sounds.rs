@@ -42,7 +42,7 @@ fn sounds_give_back_the_restitution_within_its_uncertainty() {
         let share = |k: usize| coverage.within[k] as f64 / coverage.n as f64;
         assert!(coverage.n > 400, "{coverage:?}");
         // An onset errs by less than a sample and a quarter of the tone, and not as a normal number: more than two of three are within one
-        // standard uncertainty.
-        assert!(share(1) >= 0.98 && share(0) <= 0.98, "{coverage:?}");
+        // standard uncertainty. Bars by the fewest terms are a fifth wider than those of the best series, which few flights follow too well.
+        assert!(share(1) >= 0.98 && share(0) <= 0.99, "{coverage:?}");
     }
 }
