@@ -13,13 +13,13 @@ use serde_json::{Value, json};
 
 use crate::estimate::median;
 use crate::table::Measured;
-use crate::table::{DataError, Table};
+use crate::table::{DataError, Table, is_numbered};
 
 use super::bad_instants::good_flights;
 use super::flight_speeds::{Errors, Speeds};
 use super::impact::Impact;
 use super::rig::Rig;
-use super::roles::{DROPS, EVENTS, INTERVALS, NUMBERED, TIME_UNCERTAINTIES, TIMES, is_numbered};
+use super::roles::{DROPS, EVENTS, INTERVALS, NUMBERED, TIME_UNCERTAINTIES, TIMES};
 use super::series::{FlightSpan, Scatter, drops, flight_spans, scatter};
 
 /// Longest flight, s; a longer one, with landing at 100 m/s, is one in another unit.

@@ -1,6 +1,6 @@
 //! The kinds of records, and the names of their columns.
 
-use crate::table::{DataError, Table, bare};
+use crate::table::{DROP_HEIGHTS, DataError, RESTITUTIONS, Table, is_numbered};
 
 /// The kinds of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,10 +63,16 @@ impl RecordKind {
         let found = columns.header().join(", ");
         let kinds = Self::ALL.map(|kind| format!("{} ({})", kind.name(), kind.columns()));
         let message = format!("the columns {found} are those of no record");
-        let help = format!(
-            "a record is one of {}; name the columns so, or say which they are, --columns time=COLUMN",
-            kinds.join(", ")
-        );
+        let help = match has(&RESTITUTIONS)? || has(DROP_HEIGHTS[0])? {
+            true => format!(
+                "these are restitutions already: fem-run fit CASE.toml --data {}",
+                columns.name()
+            ),
+            false => format!(
+                "a record is one of {}; name the columns so, or say which they are, --columns time=COLUMN",
+                kinds.join(", ")
+            ),
+        };
         Err(columns.header_fault(message).with_help(help))
     }
 }
@@ -107,13 +113,6 @@ pub(super) const NUMBERED: [&str; 10] =
     ["start", "stop", "lap", "tap", "bounce", "impact", "t", "drop", "trial", "run"];
 /// Those whose columns are drops.
 pub(super) const DROPS: [&str; 3] = ["drop", "trial", "run"];
-
-/// Whether the name of a column is one of these and a number, `stop_2`; the first instant of a row is `start`.
-pub(super) fn is_numbered(header: &str, names: &[&str]) -> bool {
-    let bare = bare(header);
-    let name = bare.trim_end_matches(|c: char| c.is_ascii_digit() || c == '#');
-    (name.len() < bare.len() || name == "start") && names.contains(&name.trim_end_matches('_'))
-}
 
 /// Names of a column of the uncertainties of instants.
 pub(super) const TIME_UNCERTAINTIES: [&str; 3] = ["time_uncertainty", "t_uncertainty", "u(t)"];

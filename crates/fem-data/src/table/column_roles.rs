@@ -166,6 +166,13 @@ pub(crate) fn bare(header: &str) -> &str {
     ending_of(header).and_then(|ending| ending.before(header)).unwrap_or(header)
 }
 
+/// Whether the name of a column is one of these and a number, `stop_2`; the first instant of a row is `start`.
+pub(crate) fn is_numbered(header: &str, names: &[&str]) -> bool {
+    let bare = bare(header);
+    let name = bare.trim_end_matches(|c: char| c.is_ascii_digit() || c == '#');
+    (name.len() < bare.len() || name == "start") && names.contains(&name.trim_end_matches('_'))
+}
+
 /// Returns a name without a unit in brackets, which it keeps if no column has that unit: `voltage [V]`.
 pub(super) fn before_brackets(header: &str) -> &str {
     header.split(['[', '(']).next().unwrap_or_default().trim_end_matches('_')
@@ -199,7 +206,7 @@ pub(super) const SPEEDS: [&str; 18] = [
     "v_in",
 ];
 /// Names of columns of heights from which a body falls on the other one, most certain first.
-pub(super) const DROP_HEIGHTS: [&[&str]; 2] = [
+pub(crate) const DROP_HEIGHTS: [&[&str]; 2] = [
     &["drop_height", "release_height", "initial_height", "fall_height", "h0", "h_0", "h_drop"],
     &["height", "h", "h1", "h_1"],
 ];
@@ -219,7 +226,7 @@ pub(super) const REBOUND_SPEEDS: [&str; 8] = [
     "v_rebound",
     "exit_velocity",
 ];
-pub(super) const RESTITUTIONS: [&str; 8] = [
+pub(crate) const RESTITUTIONS: [&str; 8] = [
     "restitution",
     "coefficient_of_restitution",
     "restitution_coefficient",

@@ -27,7 +27,7 @@ mod restitutions;
 mod sweep_table;
 mod temperature_blocks;
 
-pub(crate) use column_roles::bare;
+pub(crate) use column_roles::{DROP_HEIGHTS, RESTITUTIONS, is_numbered};
 pub use csv_dialect::decode;
 pub use csv_table::{NumberColumn, Table};
 pub use data_error::DataError;

@@ -5,7 +5,7 @@
 
 use super::column_roles::{
     CONTACT_TIMES, DIAMETERS, DROP_HEIGHTS, REBOUND_HEIGHTS, REBOUND_SPEEDS, RESTITUTIONS, SPEEDS,
-    is_key, uncertainties, uncertainty_of,
+    is_key, is_numbered, uncertainties, uncertainty_of,
 };
 use super::csv_table::Table;
 use super::data_error::DataError;
@@ -102,16 +102,20 @@ fn read_rows(
         },
     )?;
     let (mut points, mut rows) = (Vec::new(), Vec::new());
+    let mut n_left_out = 0;
     for row in 0..table.n_rows() {
-        if columns.has_result(table, row) {
-            points.push(columns.point(table, row)?);
-            rows.push(row);
+        let n_before = points.len();
+        for column in &columns.restitutions {
+            if columns.has_result(table, row, *column) {
+                points.push(columns.point(table, row, *column)?);
+                rows.push(row);
+            }
         }
+        n_left_out += usize::from(points.len() == n_before);
     }
     if points.is_empty() {
         return Err(DataError::new(table.name(), "no row has a restitution"));
     }
-    let n_left_out = table.n_rows() - points.len();
     let uneven = even_out(&mut points, &mut rows);
     let is_bound = |row: usize| columns.accepted.is_some_and(|it| is_bound(table, row, it));
     let bounds = points.iter().zip(&rows).filter(|(_, row)| is_bound(**row));
@@ -208,8 +212,9 @@ struct Columns {
     approach: Said,
     /// Speeds of bodies that have no column, m/s.
     other_speed: f64,
-    restitution: usize,
-    /// The quantity that it is.
+    /// Restitutions of one row: several if an impact was repeated, `e1`, `e2`.
+    restitutions: Vec<usize>,
+    /// The quantity that they are.
     rebound: Said,
     uncertainty: Option<usize>,
     contact_time: Option<usize>,
@@ -253,17 +258,22 @@ impl Columns {
             (table.find(&REBOUND_SPEEDS)?, Said::Speed),
             (height(REBOUND_HEIGHTS, speeds.first().copied())?, Said::Height),
         ];
-        let after = after.into_iter().find_map(|(column, said)| Some((column?, said)));
-        let (restitution, rebound) = match after {
+        let after = after.into_iter().find_map(|(column, said)| Some((vec![column?], said)));
+        let repeats = || {
+            let is_repeat = |column: &usize| is_numbered(&table.header()[*column], &RESTITUTIONS);
+            let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
+            (!found.is_empty()).then_some((found, Said::Restitution))
+        };
+        let (restitutions, rebound) = match after.or_else(repeats) {
             Some(found) => found,
-            None => (table.require(&RESTITUTIONS, "restitution")?, Said::Restitution),
+            None => (vec![table.require(&RESTITUTIONS, "restitution")?], Said::Restitution),
         };
         check_same_bodies(table, &[&speeds[..], wanted.others].concat())?;
         Ok(Self {
             speeds,
             other_speed,
             approach,
-            restitution,
+            restitutions,
             rebound,
             uncertainty: table.find(uncertainties())?,
             contact_time: match wanted.contact_times {
@@ -287,29 +297,29 @@ impl Columns {
     pub fn read(&self) -> Vec<usize> {
         let Self { uncertainty, contact_time, complete, status, accepted, .. } = *self;
         let optional = [uncertainty, contact_time, complete, status, accepted];
-        let required = self.speeds.iter().copied().chain([self.restitution]);
+        let required = self.speeds.iter().chain(&self.restitutions).copied();
         required.chain(optional.into_iter().flatten()).collect()
     }
 
     /// Whether a row has a result: a sweep has rows of failed members, a measurement rows without a speed or a restitution.
-    pub fn has_result(&self, table: &Table, row: usize) -> bool {
+    pub fn has_result(&self, table: &Table, row: usize, restitution: usize) -> bool {
         // A first cell that is no number may be the unit of the column: it is an error.
         if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed, self.approach)) {
             return true;
         }
         let is_complete = |complete: usize| table.text(row, complete) != "false";
         self.complete.is_none_or(is_complete)
-            && !table.is_missing(row, self.restitution)
+            && !table.is_missing(row, restitution)
             && !self.speeds.iter().any(|speed| table.is_missing(row, *speed))
     }
 
-    pub fn point(&self, table: &Table, row: usize) -> Result<Point, DataError> {
+    pub fn point(&self, table: &Table, row: usize, column: usize) -> Result<Point, DataError> {
         let mut speed = self.other_speed;
-        for column in &self.speeds {
-            let value = table.number(row, *column, self.approach.dimension())?;
+        for speeds in &self.speeds {
+            let value = table.number(row, *speeds, self.approach.dimension())?;
             if self.approach == Said::Height && value <= 0.0 {
                 let help = "a height of a drop is greater than 0";
-                return Err(table.cell_fault(row, *column, value, help));
+                return Err(table.cell_fault(row, *speeds, value, help));
             }
             speed += self.approach.speed(value);
         }
@@ -318,7 +328,7 @@ impl Columns {
                 .fault(row, format!("the approach speed is {} m/s", number(speed, 5)))
                 .with_help("it must be greater than 0"));
         }
-        let rebound = table.number(row, self.restitution, self.rebound.dimension())?;
+        let rebound = table.number(row, column, self.rebound.dimension())?;
         let restitution = match self.rebound {
             Said::Restitution => rebound,
             // A speed after the impact may have the opposite sign.
@@ -328,7 +338,7 @@ impl Columns {
         if !(0.0..=MAX_RESTITUTION).contains(&restitution) {
             return Err(table
                 .fault(row, format!("the restitution is {}", number(restitution, 5)))
-                .in_column(&table.header()[self.restitution])
+                .in_column(&table.header()[column])
                 .with_help(
                     "it must be from 0 to 1, or to 1.2 with scatter; name the column \
                      restitution_percent for per cents",
@@ -345,8 +355,8 @@ impl Columns {
             ));
         }
         let restitution_uncertainty = match self.uncertainty {
-            Some(column) => uncertainty(table, row, column)?,
-            None => self.derived_uncertainty(table, row, restitution)?,
+            Some(own) => uncertainty(table, row, own)?,
+            None => self.derived_uncertainty(table, row, column, restitution)?,
         };
         let contact_time = match self.contact_time {
             Some(column) => positive(table, row, column, TIME)?,
@@ -360,6 +370,7 @@ impl Columns {
         &self,
         table: &Table,
         row: usize,
+        column: usize,
         restitution: f64,
     ) -> Result<Option<f64>, DataError> {
         if self.rebound == Said::Restitution {
@@ -367,7 +378,7 @@ impl Columns {
         }
         let mut relative = None;
         let approach = self.speeds.iter().map(|column| (*column, self.approach));
-        for (column, said) in approach.chain([(self.restitution, self.rebound)]) {
+        for (column, said) in approach.chain([(column, self.rebound)]) {
             let Some(own) = table.position(&uncertainty_of(&table.header()[column])) else {
                 continue;
             };

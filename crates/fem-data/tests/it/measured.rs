@@ -240,6 +240,13 @@ fn heights_and_speeds_after_give_restitutions() {
     }
     let table = Table::parse("e.csv", "drop height,rebound height\n0,0\n").unwrap();
     assert!(Restitutions::read(&table, ball().scene()).is_err());
+    // Impacts that were repeated are points of their own, and an empty cell is none.
+    let table =
+        Table::parse("e.csv", "v (m/s),e1,e2,e3\n1,0.9,0.91,0.89\n2,0.8,,0.81\n,,,\n").unwrap();
+    let data = Restitutions::read(&table, ball().scene()).unwrap();
+    let points: Vec<(f64, f64)> = data.points.iter().map(|it| (it.speed, it.restitution)).collect();
+    assert_eq!(points, [(1.0, 0.9), (1.0, 0.91), (1.0, 0.89), (2.0, 0.8), (2.0, 0.81)]);
+    assert_eq!((&data.lines[..], data.n_left_out), (&[2, 2, 2, 3, 3][..], 1));
 }
 
 /// A restitution above 1 is warned of in the words of the cradle, with its line; above 1.2 it is an error.

@@ -371,12 +371,17 @@ fn records_that_say_nothing_are_errors_that_say_why() {
         ("t [frames]\n4\n10\n15\n", "the unit of t_[frames] is not known"),
         ("time_s\n0\n0.1\n0.3\n0.7\n1.5\n", "no two flights in a row"),
         ("speed,e\n1,0.9\n2,0.8\n", "the columns speed, e are those of no record"),
+        (
+            "drop height,e\n1,0.9\n",
+            "these are restitutions already: fem-run fit CASE.toml --data record.csv",
+        ),
         ("time_s,time_uncertainty_s\n0.4,0\n1,0\n1.5,0\n", "record.csv:2: the uncertainty"),
         ("PK\u{3}\u{4}", "spreadsheet"),
         (&frames, "the 100 instants are evenly spaced, by 4.167 ms: they are those of frames"),
     ] {
         let error = read(text, &Rig::default()).unwrap_err();
-        assert!(error.to_string().contains(expected), "{text}: {error}");
+        let said = error.to_string() + &error.help.unwrap_or_default();
+        assert!(said.contains(expected), "{text}: {said}");
     }
     // Restitutions above 1 that their uncertainty explains are warned of.
     let growing = bounces("time_s\n0\n1\n2.1\n3.3\n4.7\n", &Rig::default());
