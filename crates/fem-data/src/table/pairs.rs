@@ -1,6 +1,7 @@
 //! Restitutions by their pair of bodies.
 
 use fem_case::CaseFile;
+use fem_case::engineering::show;
 
 use super::restitutions::Restitutions;
 
@@ -52,6 +53,27 @@ impl MeasuredPairs {
             }
         }
         Self { data, pairs }
+    }
+
+    /// Returns the points that are kept, with a note about the others: they are too fast for a model.
+    pub fn kept(self, is_kept: &[bool]) -> Self {
+        let diameters: Vec<_> =
+            (0..is_kept.len()).map(|k| self.pairs[self.pair_of(k)].diameters).collect();
+        let chosen: Vec<usize> = (0..is_kept.len()).filter(|k| is_kept[*k]).collect();
+        let mut data = self.data;
+        let fast = data.points.iter().zip(is_kept).filter(|(_, kept)| !**kept);
+        let slowest = fast.map(|(point, _)| point.speed).fold(f64::INFINITY, f64::min);
+        if slowest.is_finite() {
+            data.notes.push(format!(
+                "{} of {} points, from {} on, are left out: their contacts are too large for the model",
+                is_kept.len() - chosen.len(),
+                is_kept.len(),
+                show(slowest, "m/s")
+            ));
+        }
+        data.points = chosen.iter().map(|k| data.points[*k]).collect();
+        data.lines = chosen.iter().filter_map(|k| data.lines.get(*k).copied()).collect();
+        Self::sorted(data, |k| diameters[chosen[k]])
     }
 
     /// Returns the restitutions of all points.

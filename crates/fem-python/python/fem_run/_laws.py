@@ -289,7 +289,7 @@ def calibrate(
         material: the material to calibrate if the bodies differ.
         regularisation: the error of a restitution that costs as much as a weight of 1.
         uncertainty: standard uncertainty of the restitutions if the data have none.
-        model: the model that computes the collisions, ``"condensed"`` by default.
+        model: the model that computes the collisions, by default ``"condensed"``, or ``"ting"`` for a plate that bends.
         robust: whether points far from the curve count little; their weights are in ``curves["data"]["weight"]``.
         as_elastic: whether restitutions that are upper bounds are taken as they are.
         prior: whether the measured relaxation of the case is prior knowledge, whose weights move within their uncertainties.

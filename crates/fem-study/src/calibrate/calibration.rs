@@ -9,7 +9,7 @@ use fem_data::estimate::{FitError, InputPart, Robustness, SPEED, quantile};
 use fem_material::PronyTerm;
 use rayon::prelude::*;
 
-use super::experiment::Experiment;
+use super::experiment::{Experiment, chosen_model};
 use super::fault::CalibrationFault;
 use super::flow::FlowFit;
 use super::maxwell::Maxwell;
@@ -48,7 +48,7 @@ const MIN_WEIGHT: f64 = 1e-9;
 /// let case = Case::of(CaseFile::of_bodies(lower, upper).with_material("glass", glass))?;
 /// let measured = Restitutions::of("glass", &[(0.1, 0.915), (0.5, 0.925), (1.0, 0.93)]);
 /// let settings =
-///     Settings { model: CalibrationModel::Ting, n_terms: 2, ..Settings::default() };
+///     Settings { model: Some(CalibrationModel::Ting), n_terms: 2, ..Settings::default() };
 /// let found = Calibration::of(&case, measured.into(), &settings)?;
 /// assert!(found.fit.rms < 0.005);
 ///
@@ -116,6 +116,7 @@ impl Calibration {
         settings: &Settings,
     ) -> Result<Self, CalibrationFault> {
         let target = Target::of(case, settings.material.as_deref(), settings.acts_on)?;
+        let (model, measured) = chosen_model(case, measured, settings.model)?;
         let uncertainties = measured.uncertainties();
         let regularisation = settings.regularisation.unwrap_or_else(|| match settings.uses_prior {
             true => 0.0,
@@ -124,8 +125,7 @@ impl Calibration {
         check(&measured, settings, regularisation)?;
         let of_case = |case: &Case| {
             let pairs = measured.pairs.par_iter();
-            let made =
-                pairs.map(|pair| Experiment::new(case, &measured, pair, &target, settings.model));
+            let made = pairs.map(|pair| Experiment::new(case, &measured, pair, &target, model));
             made.collect::<Result<Vec<_>, _>>()
         };
         let experiments = of_case(case)?;
@@ -186,10 +186,10 @@ impl Calibration {
         let maxwell = Maxwell::of_mean(&of_terms, &wanted, fit.robustness.as_ref(), contacts)?;
         let found = Self {
             target,
-            model: settings.model,
+            model,
             regularisation,
             confidence: settings.confidence,
-            unused_key: unused_key(case, settings.model),
+            unused_key: unused_key(case, model),
             fit,
             prior,
             inputs,

@@ -125,12 +125,52 @@ struct Made {
     is_quasi_static: bool,
 }
 
-fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
-    if let Some(plate) = plate_of(case.scene())? {
-        let slowest = HertzImpact::new(span.fastest.pair(), span.speeds().0)?;
-        if plate.mobility_in(&slowest) != Ok(None) {
-            return Err(CalibrationFault::Plate);
+/// Returns whether a plate of the case bends in the slowest contact of the data.
+///
+/// # Errors
+/// A plate that is bonded below; a speed without a Hertz impact.
+fn bends(case: &Case, slowest: f64) -> Result<bool, CalibrationFault> {
+    let Some(plate) = plate_of(case.scene())? else { return Ok(false) };
+    let slowest = HertzImpact::new(&case.scene().pair()?, slowest)?;
+    Ok(plate.mobility_in(&slowest) != Ok(None))
+}
+
+/// Returns the model for the bodies and speeds of the data, and the data that it can compute: contacts that are too large for the first
+/// order of the spheres' finite size are left out, unless all are.
+///
+/// # Errors
+/// A plate that is bonded below; a body or a speed without a Hertz impact.
+pub fn chosen_model(
+    case: &Case,
+    measured: MeasuredPairs,
+    given: Option<CalibrationModel>,
+) -> Result<(CalibrationModel, MeasuredPairs), CalibrationFault> {
+    let speeds = measured.data.points.iter().map(|point| point.speed);
+    let slowest = speeds.fold(f64::INFINITY, f64::min);
+    let model = match given {
+        Some(given) => given,
+        None if bends(case, slowest)? => CalibrationModel::Ting,
+        None => CalibrationModel::Condensed,
+    };
+    if model == CalibrationModel::Condensed {
+        return Ok((model, measured));
+    }
+    let mut is_kept = vec![true; measured.data.points.len()];
+    for pair in &measured.pairs {
+        let case = case.edited(|file| pair.resize(file))?;
+        let (bodies, size) = (case.scene().pair()?, case.scene().finite_size()?);
+        for point in &pair.points {
+            let hertz = HertzImpact::new(&bodies, measured.data.points[*point].speed)?;
+            is_kept[*point] = size.check(hertz.max_contact_radius()).is_ok();
         }
+    }
+    let measured = if is_kept.contains(&true) { measured.kept(&is_kept) } else { measured };
+    Ok((model, measured))
+}
+
+fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
+    if bends(case, span.speeds().0)? {
+        return Err(CalibrationFault::Plate);
     }
     let is_given = case.gives("mesh.contact_element_size");
     let size = span.element_size(case.scene());

@@ -5,8 +5,8 @@ use fem_case::schema::ActsOn;
 /// Settings of a calibration; a setting that is `None` follows from the data or the case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The model that computes a collision.
-    pub model: CalibrationModel,
+    /// The model that computes a collision; by default condensed elements, or Ting's model for a plate that bends.
+    pub model: Option<CalibrationModel>,
     /// The material that is calibrated, if the bodies have two; the other one keeps its relaxation.
     pub material: Option<String>,
     /// The moduli that relax; by default those of the case, or all.
@@ -29,10 +29,10 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Returns settings for four terms, the condensed model and ranges of 95 %.
+    /// Returns settings for four terms, the model of the bodies and ranges of 95 %.
     fn default() -> Self {
         Self {
-            model: CalibrationModel::Condensed,
+            model: None,
             material: None,
             acts_on: None,
             n_terms: 4,

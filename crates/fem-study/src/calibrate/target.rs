@@ -5,6 +5,9 @@ use fem_material::{ActsOn, PronySeries};
 
 use super::fault::CalibrationFault;
 
+/// Share of the compliance of the contact that makes the other body's loss small.
+const NEARLY_ALL: f64 = 0.9;
+
 /// The material that is calibrated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
@@ -17,11 +20,11 @@ pub struct Target {
 }
 
 impl Target {
-    /// Returns the material of this name, or the only one. The moduli that relax are the given ones, those of the case,
+    /// Returns the material of this name, or the only one, or the one that is far softer than the other. The moduli that relax are the given ones, those of the case,
     /// or all.
     ///
     /// # Errors
-    /// No body is made of a material of this name, or there are two materials and none is named.
+    /// No body is made of a material of this name, or there are two materials of like stiffness and none is named.
     pub fn of(
         case: &Case,
         name: Option<&str>,
@@ -40,7 +43,13 @@ impl Target {
                 let (name, materials) = (name.to_string(), materials());
                 return Err(CalibrationFault::OtherMaterial { name, materials });
             }
-            (None, _) => return Err(CalibrationFault::TwoMaterials { materials: materials() }),
+            // Of two materials the one that yields nearly all of the approach is measured.
+            (None, _) => {
+                let shares = case.scene().compliance_shares();
+                let side = shares.iter().position(|share| *share > NEARLY_ALL);
+                let soft = side.and_then(|side| own[side]);
+                soft.ok_or_else(|| CalibrationFault::TwoMaterials { materials: materials() })?
+            }
         };
         let sides = own.map(|own| own == Some(material));
         let bodies = case.scene().bodies().iter().zip(sides).filter(|(_, is_it)| *is_it);

@@ -1,6 +1,6 @@
 //! Warnings about a series.
 
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use fem_data::estimate::Robustness;
 use fem_data::estimate::spectrum::{SpectrumFit, SpeedExponent};
 
@@ -59,6 +59,22 @@ impl Calibration {
             "{least:.1} elements across the smallest contact radius{others} are too few: lower \
              mesh.contact_element_size, or leave it out"
         ))
+    }
+
+    /// Returns why no series fits the data, in some words; `None` if the best one fits.
+    pub fn why_none_fits(&self) -> Option<String> {
+        let exponent = self.loss_exponent().filter(|found| found.is_above(SpeedExponent::LIMIT));
+        match (self.fit.misfit.filter(|_| misses(&self.fit)), exponent) {
+            (Some(misfit), _) => {
+                Some(format!("the best misses them by {} standard errors", number(misfit, 2)))
+            }
+            (None, Some(found)) => {
+                Some(format!("1 - e grows as the speed to the power {:.2}", found.value))
+            }
+            (None, None) => {
+                misses(&self.fit).then(|| format!("the rms error is {:.3}", self.fit.rms))
+            }
+        }
     }
 
     /// Returns the warning about contacts with the best series that are too large for the first order of finite size.

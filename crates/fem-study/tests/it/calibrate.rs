@@ -39,7 +39,8 @@ fn one_of_two_materials_is_named() {
 /// A name that is no bare key of TOML is quoted in the printed table.
 #[test]
 fn printed_table_quotes_a_material_name() {
-    let settings = Settings { model: CalibrationModel::Ting, n_terms: 1, ..Settings::default() };
+    let settings =
+        Settings { model: Some(CalibrationModel::Ting), n_terms: 1, ..Settings::default() };
     for (name, key) in [("soda-lime_1", "soda-lime_1"), ("a \"b\"", "\"a \\\"b\\\"\"")] {
         let measured = Restitutions::of("e", &[(0.5, 0.9)]);
         let found = Calibration::of(&case(name, name), measured.into(), &settings).unwrap();
@@ -83,7 +84,7 @@ fn polymer(temperature: &str) -> Case {
 
 fn with_prior(case: &Case, data: &[(f64, f64)], uncertainty: f64) -> Calibration {
     let model = CalibrationModel::Ting;
-    let settings = Settings { model, uses_prior: true, ..Settings::default() };
+    let settings = Settings { model: Some(model), uses_prior: true, ..Settings::default() };
     let material = case.file().body[0].material.clone();
     let settings = Settings { material, ..settings };
     let mut measured = Restitutions::of("e", data);
@@ -163,7 +164,7 @@ fn restitutions_narrow_the_tail_that_was_not_measured() {
 #[test]
 fn prior_needs_a_measured_relaxation_and_uncertainties() {
     let settings =
-        Settings { model: CalibrationModel::Ting, uses_prior: true, ..Settings::default() };
+        Settings { model: Some(CalibrationModel::Ting), uses_prior: true, ..Settings::default() };
     let refused = |case: &Case, settings: &Settings, uncertainty: Option<f64>| {
         let mut measured = Restitutions::of("e", &[(0.5, 0.9)]);
         if let Some(uncertainty) = uncertainty {

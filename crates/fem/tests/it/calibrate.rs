@@ -17,7 +17,7 @@ fn pair() -> Case {
 }
 
 fn ting(n_terms: usize) -> Settings {
-    Settings { model: CalibrationModel::Ting, n_terms, ..Settings::default() }
+    Settings { model: Some(CalibrationModel::Ting), n_terms, ..Settings::default() }
 }
 
 /// Returns Ting's restitutions of a series at speeds, m/s, and diameters of the striker, m.

@@ -48,7 +48,7 @@ pub struct Arguments {
     /// case, or all]
     #[arg(long, value_name = "MODULI", value_parser = ["all", "shear"])]
     acts_on: Option<String>,
-    /// The material to calibrate if the bodies differ; the other keeps its relaxation
+    /// The material to calibrate if the bodies differ; the other keeps its relaxation [default: that of a far softer body]
     #[arg(long, value_name = "NAME")]
     material: Option<String>,
     /// Strength of the regularisation: the error of a restitution that costs as much as a weight of 1; 0 for
@@ -58,9 +58,9 @@ pub struct Arguments {
     /// Standard uncertainty of the restitutions if the file has none
     #[arg(long, value_name = "U", allow_negative_numbers = true, value_parser = parse_share)]
     uncertainty: Option<f64>,
-    /// Model that computes the collisions
-    #[arg(long, value_name = "MODEL", value_enum, default_value_t = ModelName::Condensed)]
-    model: ModelName,
+    /// Model that computes the collisions [default: condensed, or ting for a plate that bends]
+    #[arg(long, value_name = "MODEL", value_enum)]
+    model: Option<ModelName>,
     /// Fit robustly: points far from the curve count little, and are listed
     #[arg(long)]
     robust: bool,
@@ -131,10 +131,10 @@ fn found(
 
 fn settings(arguments: &Arguments) -> Settings {
     Settings {
-        model: match arguments.model {
+        model: arguments.model.map(|model| match model {
             ModelName::Condensed => CalibrationModel::Condensed,
             ModelName::Ting => CalibrationModel::Ting,
-        },
+        }),
         material: arguments.material.clone(),
         acts_on: arguments.acts_on.as_deref().and_then(ActsOn::from_word),
         n_terms: usize::from(arguments.terms),

@@ -65,7 +65,10 @@ fn heading(found: &Calibration) -> String {
         ActsOn::Shear => "the shear modulus",
     };
     let [total, ..] = found.moments();
-    let mut text = format!(
+    let none =
+        found.why_none_fits().map(|why| format!("no Prony series fits these data: {why}\n\n"));
+    let mut text = none.unwrap_or_default();
+    text += &format!(
         "{} (between {} and {}) of {moduli} of {} relaxes; rms error of the restitution {}\n\n",
         number(total.value, 3),
         number(total.low, 3),

@@ -331,7 +331,9 @@ fn calibrations_and_fits_take_the_plate_with_them() {
     let weight = |folder: &str| {
         number(&place.json(format!("{folder}/calibrate.json").as_str())["terms"][0]["weight"])
     };
-    place.succeed((calibrate, "--model ting --out plate"));
+    // The plate and the soft ball choose the model and the material.
+    let plain = calibrate.replace("--material polymer ", "");
+    place.succeed((plain.as_str(), "--out plate"));
     assert!((weight("plate") - 0.2).abs() < 1e-4, "{}", weight("plate"));
     place.succeed((calibrate, "--model ting --out block", half_space.clone()));
     assert!(weight("block") > 0.25, "{}", weight("block"));
@@ -354,6 +356,19 @@ fn calibrations_and_fits_take_the_plate_with_them() {
     assert!(!ran.stderr.contains("finite size"), "{}", ran.stderr);
     // The case names the model that the calibration has.
     assert!(!ran.stderr.contains("is ignored"), "{}", ran.stderr);
+    // An impact that is too fast for the model is left out, and the others give the answer.
+    let rows = place.text("plate/residuals.csv");
+    let rows = rows.lines().skip(1).map(|row| row.split(',').collect::<Vec<_>>());
+    let rows: String = rows.map(|row| format!("{},{}\n", row[2], row[3])).collect();
+    place.write("faster.csv", &format!("speed_m_s,restitution\n{rows}9,0.8\n"));
+    let ran =
+        place.succeed((plain.replace("drops/sweep.csv", "faster.csv").as_str(), "--out faster"));
+    assert!((weight("faster") - 0.2).abs() < 1e-4, "{}", weight("faster"));
+    ran.prints("1 of 4 points, from 9.000 m/s on, are left out");
+    // What no series makes is said first.
+    place.write("none.csv", "v,e,u(e)\n1,0.8,0.001\n0.5,0.99,0.001\n0.2,0.85,0.001\n");
+    let ran = place.succeed(plain.replace("drops/sweep.csv", "none.csv").as_str());
+    assert!(ran.stdout.starts_with("no Prony series fits these data: "), "{}", ran.stdout);
 
     // What no closed form has is refused.
     place.fails(2, (calibrate, "--model condensed")).tells("no plate that bends|--model ting");
