@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{LN_10, TAU};
 
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
 use fem_material::{ShiftLaw, ZERO_CELSIUS};
 
@@ -362,6 +362,18 @@ fn scatter_of_blocks(table: &ModulusTable, blocks: &[Block]) -> f64 {
     if freedom > 0.0 { (sum / freedom).sqrt() } else { f64::NAN }
 }
 
+/// Returns the least and the largest loss factor over temperature, each with its temperature; `None` without several temperatures.
+fn losses_of_ramp(table: &ModulusTable) -> Option<String> {
+    let of = |point: &ModulusPoint| Some((point.loss / point.storage, point.temperature?));
+    let losses: Vec<(f64, f64)> = table.points.iter().map(of).collect::<Option<_>>()?;
+    let order = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+    let (least, most) = (losses.iter().min_by(order)?, losses.iter().max_by(order)?);
+    let shown =
+        |(loss, kelvin): &(f64, f64)| format!("{} at {}", number(*loss, 2), celsius(*kelvin));
+    let is_ramp = table.kind == TestKind::Oscillation && least.1 != most.1;
+    is_ramp.then(|| format!("tan δ from {} to {}", shown(least), shown(most)))
+}
+
 fn check_span(table: &ModulusTable) -> Result<(), DataError> {
     let [from, to] = band(table.kind, &table.points);
     if to < MIN_SPAN * from {
@@ -371,6 +383,14 @@ fn check_span(table: &ModulusTable) -> Result<(), DataError> {
         };
         let at = table.points[0].at;
         let at = if table.kind == TestKind::Oscillation { at / TAU } else { at };
+        if let (true, Some(ramp)) = (to < SAME * from, losses_of_ramp(table)) {
+            let message =
+                format!("a ramp of temperature at one {what}, {}, is no series", show(at, unit));
+            let help = format!(
+                "it has the loss there alone, {ramp}: add a second frequency at each temperature"
+            );
+            return Err(DataError::new(&table.name, message).with_help(help));
+        }
         let message = match to < SAME * from {
             true => format!("all rows are of one {what}, {}", show(at, unit)),
             false => format!("the rows span a factor of only {:.2} of {what}", to / from),

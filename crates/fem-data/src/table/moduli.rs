@@ -263,9 +263,16 @@ impl<'a> Columns<'a> {
             abscissae.pop();
         }
         table.only(abscissae.iter().map(|(column, _)| *column))?;
-        let abscissa =
-            abscissae.first().copied().ok_or_else(|| missing("a frequency or a time"))?;
         let temperature = find(|role| matches!(role, Role::Temperature(_)))?;
+        let Some(abscissa) = abscissae.first().copied() else {
+            let error = missing("a frequency or a time");
+            return Err(match temperature {
+                Some(_) => error.with_help(
+                    "a ramp of temperature needs its frequency: add a column frequency_hz",
+                ),
+                None => error,
+            });
+        };
         let storage = find(|role| matches!(role, Role::Storage(_)))?;
         let loss = find(|role| matches!(role, Role::Loss(_)))?;
         let complex = find(|role| matches!(role, Role::Complex(_)))?;

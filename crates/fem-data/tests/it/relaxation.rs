@@ -289,6 +289,12 @@ fn hostile_tables_have_one_clear_answer() {
             format!("{head}1,2000,100\n1,2010,101\n"),
             "all rows are of one frequency, 1.000 Hz|factor of 3",
         ),
+        (
+            "T [°C],f [Hz],E' [MPa],E'' [MPa]\n0,1,2000,60\n20,1,1500,120\n40,1,900,90\n"
+                .to_string(),
+            "a ramp of temperature at one frequency, 1.000 Hz|tan δ from 0.03 at 0.0 °C to 0.1 at 40.0 °C",
+        ),
+        ("T [°C],E' [MPa],tan δ\n0,2000,0.03\n".to_string(), "add a column frequency_hz"),
         (format!("{head}1,2000,100\n2,2010,101\n"), "span a factor of only 2.00"),
         (
             format!("{head}1,2000,100\n10,1500,101\n"),
