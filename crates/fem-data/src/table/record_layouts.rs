@@ -10,8 +10,12 @@ const SEARCHED: usize = 50;
 /// Returns the text as a table below a header, and the number of lines that were added above it.
 pub(super) fn as_table(text: &str) -> (Cow<'_, str>, u64) {
     let lines: Vec<&str> = text.lines().take(SEARCHED).collect();
-    let layouts =
-        [labels as fn(&str, &[&str]) -> Option<(String, u64)>, columns_of_settings, steps];
+    let layouts = [
+        labels as fn(&str, &[&str]) -> Option<(String, u64)>,
+        columns_of_settings,
+        steps,
+        intervals,
+    ];
     let found = layouts.into_iter().find_map(|layout| layout(text, &lines));
     found.map_or((text.into(), 0), |(text, n_added)| (text.into(), n_added))
 }
@@ -41,6 +45,28 @@ fn columns_of_settings(text: &str, lines: &[&str]) -> Option<(String, u64)> {
     }
     let rows = text.lines().map(|line| samples(line).unwrap_or_default() + "\n");
     Some(("time_s,ch1\n".to_string() + &rows.collect::<String>(), 1))
+}
+
+/// RheoCompass: intervals of rows that begin with an empty cell, below names that follow `Interval data:`, a blank line and units.
+fn intervals(text: &str, lines: &[&str]) -> Option<(String, u64)> {
+    const NAMES: &str = "Interval data:";
+    let names = lines.iter().find_map(|line| line.trim_start_matches('"').strip_prefix(NAMES))?;
+    let separator = names.trim_start_matches('"').chars().next()?;
+    let (mut n_names, mut n_units) = (0, 0);
+    let row = |line: &str| {
+        let (first, rest) = line.split_once(separator).unwrap_or((line, ""));
+        let is_names = first.trim_matches('"') == NAMES;
+        let is_row = first.is_empty() && n_names > 0 && !rest.trim().is_empty();
+        let is_units = is_row && rest.contains('[');
+        n_names += usize::from(is_names);
+        n_units += usize::from(is_units);
+        // Names and units stand above each interval.
+        match is_names && n_names == 1 || is_row && !(is_units && n_units > 1) {
+            true => format!("{rest}\n"),
+            false => format!("#{line}\n"),
+        }
+    };
+    Some((text.lines().map(row).collect(), 0))
 }
 
 /// Rigol: numbers of samples, with start and increment of the time beside the names of the channels.

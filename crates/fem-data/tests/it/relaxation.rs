@@ -590,8 +590,14 @@ fn layouts_of_instruments_are_read() {
     let steps = "Operator,lab\nLength,50 mm\n\n[step]\nSweep - 0C\nAngular frequency,Temperature,Storage modulus,Loss \
         modulus,Frequency\nrad/s,°C,MPa,MPa,Hz\n6.25,0,1200,80,0.994718\n62.5,0,1300,60,9.94718\n\n[step]\nSweep - 20C\nAngular \
         frequency,Temperature,Storage modulus,Loss modulus,Frequency\nrad/s,°C,MPa,MPa,Hz\n6.25,20,900,90,0.994718\n";
+    let interval = "Interval data:\tPoint No.\tAngular Frequency\tStorage Modulus\tLoss Modulus\tStatus\n\n\t\t[rad/s]\t[Pa]\t[Pa]\t\n";
+    let intervals = format!(
+        "Project:\tPMMA\nInterval and data points:\t1\t2\n{interval}\t1\t100\t1.0E6\t2.0E5\tMe\n\t2\t10\t8.0E5\t1.8E5\tMe\n\nInterval and \
+         data points:\t2\t1\n{interval}\t1\t1\t6.0E5\t1.6E5\tMe\n"
+    );
     for (text, expected) in [
         (steps, vec![(6.25, 1.2e9), (62.5, 1.3e9), (6.25, 0.9e9)]),
+        (&intervals, vec![(100.0, 1e6), (10.0, 0.8e6), (1.0, 0.6e6)]),
         (
             "log(f/Hz),E' [MPa],tan delta\n-1,2000,0.05\n1,2400,0.04\n",
             vec![(at(0.1), 2e9), (at(10.0), 2.4e9)],
