@@ -26,7 +26,7 @@ pub use error::{
 };
 pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
-pub use estimate::plastic_flow::{FlowingImpact, flowing_impact, restitution_error};
+pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
 pub use estimate::plate_impact::free_plate;
 pub use estimate::quasi_static::ting_impact;
 pub use models::method::{

@@ -64,13 +64,16 @@ pub fn invert(
     let n_steps = if is_number { SEARCH_STEPS } else { ((high - low) * STEPS_PER_DECADE).round() };
     let mut solutions = Vec::new();
     let mut reach = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut previous: Option<(f64, f64)> = None;
+    let (mut previous, mut fault) = (None::<(f64, f64)>, None);
     for step in 0..=n_steps as usize {
         let theta = low + (high - low) * step as f64 / n_steps;
         // Values that are so extreme that there is no collision are skipped.
-        let Ok(here) = excess(theta) else {
-            previous = None;
-            continue;
+        let here = match excess(theta) {
+            Ok(here) => here,
+            Err(error) => {
+                (previous, fault) = (None, Some(error));
+                continue;
+            }
         };
         reach = (reach.0.min(here + restitution), reach.1.max(here + restitution));
         if let Some((before, value)) = previous
@@ -89,6 +92,9 @@ pub fn invert(
         if parameter.role == ParameterRole::Damping && here + restitution < MIN_RESTITUTION {
             break;
         }
+    }
+    if let Some(fault) = fault.filter(|_| reach.0 > reach.1) {
+        return Err(fault.into());
     }
     if solutions.is_empty() {
         return Err(FitError::NoSolution {

@@ -209,8 +209,8 @@ def invert(
 
     Returns:
         ``solutions``, each with ``law``, ``parameter``, ``value``, ``standard_error`` by the restitution and uncertain
-        inputs of the case (else None), ``inputs``, its parts, and ``contact_time_s``, SI, and ``unsolved``: laws with
-        the reason. A ``yield_strength`` is at the strain rate of the contact: if a material has ``flow.rate``, its
+        inputs of the case (else None), ``inputs``, its parts, ``range_by_law`` within the law's own error, ``at_least`` if any stronger body has
+        this restitution too (else None), and ``contact_time_s``, SI, and ``unsolved``: laws with the reason. A ``yield_strength`` is at the strain rate of the contact: if a material has ``flow.rate``, its
         ``strength_at_reference_rate_pa`` is the key ``flow.yield_strength`` of the case (else None).
     """
     return _found(_native.invert(_native_of(case), None, _words(locals())))

@@ -5,7 +5,7 @@
 
 use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_collision::QuantityOfInterest;
-use fem_laws::{FirstYield, HertzImpact, ImpactQuantities, LawFamily, LawInput};
+use fem_laws::{FirstYield, HertzImpact, ImpactQuantities, LawFamily};
 use fem_material::{FlowRule, RateFactor};
 
 use crate::estimate::Estimate;
@@ -110,15 +110,6 @@ pub(crate) fn on_plate(scene: &Scene, first: FirstYield) -> Option<FirstYield> {
         Some(plate) => first.with_plate(&plate).ok(),
         None => Some(first),
     }
-}
-
-/// Returns the error of the restitution by a law that dents with the given values at an approach speed, m/s; `None` for laws that do not
-/// dent, and if the law cannot be made of the scene.
-pub fn restitution_error(scene: &Scene, law: LawInput, speed: f64) -> Option<f64> {
-    let end_rule = law.family.end_rule().unwrap_or_default();
-    let model = ModelChoice::Law { law, end_rule, tolerance: fem_case::defaults::LAW_TOLERANCE };
-    let scene = scene.touching_at(speed)?.with_model(model);
-    law_error(&scene, &Estimate::checked(&scene).ok()?)?.size(QuantityOfInterest::Restitution)
 }
 
 /// Returns the errors of a scene's law that dents, where it has a yield strength: its difference from the mean-pressure law of the

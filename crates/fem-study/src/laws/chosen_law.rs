@@ -8,7 +8,7 @@ use fem_material::{FlowRule, Material};
 
 use super::law_fault::LawFault;
 use fem_data::estimate::{check_value, find_parameter, loss_parameter};
-use fem_simulation::{Reduced, free_plate, restitution_error};
+use fem_simulation::{Reduced, free_plate};
 
 /// Returns the plate of a scene that bends under the contact.
 ///
@@ -101,6 +101,12 @@ pub fn strength_words(at_reference_rate: f64) -> String {
         show(at_reference_rate, "Pa")
     )
 }
+
+/// Ratio over which a strength with the restitution is searched downwards.
+const FARTHEST: f64 = 1e3;
+/// Steps of that search, and halvings of the step that holds its end.
+const STEPS: u32 = 24;
+const HALVINGS: usize = 4;
 
 /// A law of a case and the known values of its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -262,8 +268,8 @@ impl ChosenLaw {
         }
     }
 
-    /// Returns the law's own error of the restitution with values of all of its parameters, SI, at an approach speed, m/s: 0 for laws
-    /// that do not dent, whose parameters have no meaning apart from them.
+    /// Returns the error of the restitution by the law with values of all of its parameters, SI, at an approach speed, m/s; infinite if it
+    /// is not known, and 0 for laws that do not dent, whose parameters have no meaning apart from them.
     pub(super) fn error_at(&self, scene: &Scene, values: &[f64], speed: f64) -> f64 {
         if self.family().strength_parameter().is_none() {
             return 0.0;
@@ -271,7 +277,44 @@ impl ChosenLaw {
         let keys = self.family().parameters().iter().map(|parameter| parameter.key);
         let law =
             LawInput { family: self.family(), values: keys.zip(values.iter().copied()).collect() };
-        restitution_error(scene, law, speed).unwrap_or(f64::NAN)
+        Reduced::restitution_error(scene, law, speed).unwrap_or(f64::INFINITY)
+    }
+
+    /// Returns the least and the largest value of a strength, SI, with which the law gives the mean of restitutions with weights within its
+    /// own error; `values` are the found ones. The upper end is infinite if bodies that do not flow have that mean too, within the
+    /// `uncertainty` of the mean. Both ends are the found value for another parameter.
+    pub(super) fn range(
+        &self,
+        scene: &Scene,
+        index: usize,
+        values: &[f64],
+        points: &[(Point, f64)],
+        uncertainty: f64,
+    ) -> (f64, f64) {
+        let (family, found) = (self.family(), values[index]);
+        if family.strength_parameter() != Some(index) {
+            return (found, found);
+        }
+        // The sum of the distances of the law's restitutions from the measured ones beyond its error, upwards or downwards.
+        let beyond = |value: f64, sign: f64, uncertainty: f64| {
+            let mut values = values.to_vec();
+            values[index] = value;
+            let of_point = |(point, weight): &(Point, f64)| {
+                let outcome = self.model.outcome(&values, point.speed);
+                let e = outcome.map_or(f64::NAN, |it| it.restitution);
+                let error = self.error_at(scene, &values, point.speed) + uncertainty;
+                weight * (sign * (e - point.restitution) - error)
+            };
+            points.iter().map(of_point).sum::<f64>()
+        };
+        let low = edge(found, found / FARTHEST, |value| beyond(value, -1.0, 0.0) > 0.0);
+        let fastest = points.iter().fold(0.0, |fastest, (point, _)| f64::max(fastest, point.speed));
+        let strongest = self.model.natural_size(&family.parameters()[index], values, fastest);
+        let strongest = strongest.unwrap_or(f64::INFINITY);
+        match beyond(strongest, 1.0, uncertainty) > 0.0 {
+            true => (low, edge(found, strongest, |value| beyond(value, 1.0, 0.0) > 0.0)),
+            false => (low, f64::INFINITY),
+        }
     }
 
     /// Replaces `guesses` by substitute values, in the order of the parameters.
@@ -300,4 +343,19 @@ impl ChosenLaw {
             _ => None,
         }
     }
+}
+
+/// Returns where a condition begins to hold on the way from one value to another, in the logarithm; the other value if it never does.
+fn edge(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    let at = |share: f64| from * (to / from).powf(share);
+    let Some(first) = (1..=STEPS).find(|k| holds(at(f64::from(*k) / f64::from(STEPS)))) else {
+        return to;
+    };
+    let (mut low, mut high) =
+        (f64::from(first - 1) / f64::from(STEPS), f64::from(first) / f64::from(STEPS));
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if holds(at(middle)) { high = middle } else { low = middle }
+    }
+    at(high)
 }

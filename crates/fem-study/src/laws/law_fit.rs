@@ -1,8 +1,8 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
+use fem_case::Case;
 use fem_case::engineering::number;
 use fem_case::schema::End;
-use fem_case::{Case, central_change};
 use fem_data::estimate::{
     Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness, SPEED,
 };
@@ -47,6 +47,8 @@ pub struct LawFit<'a> {
     pub inputs: Vec<InputPart>,
     /// Changes of θ of the free parameters by the law's own error; NaN if there is no fit with it. Zeros for laws that do not dent.
     pub by_law: Vec<f64>,
+    /// The least strength, Pa, if all larger ones fit within the error of the law, too.
+    pub at_least: Option<f64>,
     /// The fitted yield strength at the reference rate of the case's flow rule, Pa, if that is another.
     pub strength_at_reference_rate: Option<f64>,
 }
@@ -85,6 +87,7 @@ impl<'a> LawFit<'a> {
             confidence,
             inputs,
             by_law,
+            at_least: None,
             strength_at_reference_rate: None,
         })
     }
@@ -121,7 +124,26 @@ impl<'a> LawFit<'a> {
                 let is_known = errors.iter().all(|error| error.is_finite());
                 is_known.then(|| refit(law, &shifted.collect::<Vec<_>>()))?
             };
-            self.by_law = central_change(shifted).unwrap_or_else(|| vec![f64::NAN; keys.len()]);
+            // Where the larger restitutions fit any strength, no interval has an end.
+            self.by_law = match [shifted(1.0), shifted(-1.0)] {
+                [Some(above), Some(below)] => {
+                    above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect()
+                }
+                _ => vec![f64::NAN; keys.len()],
+            };
+            let weighted = points.iter().zip(self.weights()).map(|(point, weight)| {
+                let uncertainty = point.restitution_uncertainty.unwrap_or(1.0);
+                (*point, weight / (uncertainty * uncertainty))
+            });
+            let weighted: Vec<(Point, f64)> = weighted.collect();
+            let is_strength = |it: &&Free| Some(it.index) == law.family().strength_parameter();
+            if let Some(j) = problem.free.iter().position(|free| is_strength(&free)) {
+                let (values, scatter) = (&self.fit.values, self.scatter());
+                let index = problem.free[j].index;
+                let (low, high) = law.range(case.scene(), index, values, &weighted, scatter);
+                self.by_law[j] = (values[index] / low).max(high / values[index]).ln();
+                self.at_least = (high == f64::INFINITY).then_some(low);
+            }
         }
         for (j, (estimate, free)) in self.fit.estimates.iter_mut().zip(&problem.free).enumerate() {
             let error = InputPart::sum(&self.inputs, j).hypot(self.by_law[j]);

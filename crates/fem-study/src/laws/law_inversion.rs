@@ -25,8 +25,9 @@ pub struct LawInversion {
     values: Vec<f64>,
     /// Changes of each value, SI, by the uncertainty of the restitution and of the inputs of the case.
     pub inputs: Vec<InputPart>,
-    /// Changes of each value, SI, by the law's own error; NaN if there is no solution with it. Zeros for laws that do not dent.
-    pub by_law: Vec<f64>,
+    /// The least and the largest value, SI, with which the law gives the restitution within its own error, for each solution. Equal for
+    /// laws that do not dent; infinite at the upper end if bodies that do not flow have that restitution too.
+    pub by_law: Vec<(f64, f64)>,
 }
 
 impl LawInversion {
@@ -57,7 +58,7 @@ impl LawInversion {
         let values = law.values(&Problem::new(law.model(), &at_speed, &[])?.values);
         let model = law.model().clone();
         let inversion = invert(&model, index, &values, speed, restitution)?;
-        let by_law = vec![0.0; inversion.solutions.len()];
+        let by_law = inversion.solutions.iter().map(|value| (*value, *value)).collect();
         Ok(Self { model, index, inversion, speed, values, inputs: Vec::new(), by_law })
     }
 
@@ -89,19 +90,28 @@ impl LawInversion {
             let input = UncertainInput { key: "restitution".to_string(), value, uncertainty };
             inputs.insert(0, InputPart { input, changes });
         }
-        let by_law = |k: usize| {
+        let point = Point::new(self.speed, restitution.value);
+        let range = |own: &f64| {
             let mut values = self.values.clone();
-            values[self.index] = own[k];
-            let error = law.error_at(case.scene(), &values, self.speed);
-            let at = |sign: f64| match error {
-                0.0 => Some(vec![0.0; own.len()]),
-                _ => changes(law, self.speed, value + sign * error),
-            };
-            central_change(at).map_or(f64::NAN, |changes| changes[k].abs())
+            values[self.index] = *own;
+            law.range(case.scene(), self.index, &values, &[(point, 1.0)], restitution.uncertainty)
         };
-        self.by_law = (0..own.len()).map(by_law).collect();
+        let by_law = own.iter().map(range).collect();
+        self.by_law = by_law;
         self.inputs = inputs;
         self
+    }
+
+    /// Returns the least value, SI, if the restitution is that of all larger ones too, within the error of the law.
+    pub fn at_least(&self, solution: usize) -> Option<f64> {
+        let (low, high) = self.by_law[solution];
+        (high == f64::INFINITY).then_some(low)
+    }
+
+    /// Returns the error of a solution, SI, by that of the law.
+    pub fn error_by_law(&self, solution: usize) -> f64 {
+        let (value, (low, high)) = (self.inversion.solutions[solution], self.by_law[solution]);
+        (value - low).max(high - value)
     }
 
     /// Returns the stored form of the parts of its standard error, SI.
@@ -115,8 +125,9 @@ impl LawInversion {
 
     /// Returns the standard error of a solution, SI; `None` if nothing is uncertain or there is no solution with an input.
     pub fn standard_error(&self, solution: usize) -> Option<f64> {
-        let error = InputPart::sum(&self.inputs, solution).hypot(self.by_law[solution]);
-        let is_exact = self.inputs.is_empty() && self.by_law[solution] == 0.0;
+        let by_law = self.error_by_law(solution);
+        let error = InputPart::sum(&self.inputs, solution).hypot(by_law);
+        let is_exact = self.inputs.is_empty() && by_law == 0.0;
         (!is_exact && error.is_finite()).then_some(error)
     }
 

@@ -52,6 +52,7 @@ impl LawFit<'_> {
     fn parameter(&self, index: usize, parameter: &LawParameter) -> Value {
         let estimate = self.fit.estimates.iter().find(|estimate| estimate.index == index);
         let profile = self.profile.as_ref().filter(|profile| profile.index == index);
+        let family_strength = self.problem.model.family().strength_parameter();
         json!({
             "key": parameter.key,
             "unit": parameter.unit,
@@ -60,6 +61,7 @@ impl LawFit<'_> {
             "standard_error": estimate.and_then(|estimate| estimate.standard_error),
             "standard_error_of_data": estimate.and_then(|estimate| estimate.error_of_data),
             "standard_error_of_law": estimate.map(|estimate| self.error_by_law(estimate)),
+            "at_least": self.at_least.filter(|_| family_strength == Some(index)),
             "interval": estimate.and_then(|estimate| estimate.interval),
             "at_bound": estimate.is_some_and(|estimate| estimate.is_at_bound),
             "profile_interval": profile.and_then(|profile| profile.interval),

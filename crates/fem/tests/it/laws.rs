@@ -143,12 +143,22 @@ fn a_strength_has_the_error_of_its_law() {
             panic!("{family:?}")
         };
         assert!((strength - STRENGTH).abs() < 2.0 * error, "{family:?}: {strength:e} ± {error:e}");
-        assert!(error < 0.7 * strength, "{family:?}: {strength:e} ± {error:e}");
+        assert!(error < *strength, "{family:?}: {strength:e} ± {error:e}");
         let data = Restitutions::of("one", &[(1.0, 0.691), (1.0, 0.691)]);
         let problem = law.problem(&data.points, &["yield_strength"]).unwrap();
         let fit = LawFit::of(&data, problem, 0.95).unwrap().with_inputs(&case, &law);
         let fitted = fit.fit.estimates[0].standard_error.unwrap();
-        assert!((fitted / error - 1.0).abs() < 0.3, "{family:?}: {fitted:e} beside {error:e}");
+        assert!((strength - STRENGTH).abs() < 2.0 * fitted, "{family:?}: {fitted:e}");
+        assert!((0.5..1.5).contains(&(fitted / error)), "{family:?}: {fitted:e} beside {error:e}");
+        // Bodies that hardly flow may be of any larger strength.
+        let found = LawInversion::of(&law, Some("yield_strength"), 1.0, 0.9965);
+        let least = found
+            .ok()
+            .map(|it| it.with_inputs(&case, &law, Measured { value: 0.9965, ..exact }, None));
+        assert!(
+            least.is_none_or(|it| it.at_least(0).is_some_and(|least| least < 2e9)),
+            "{family:?}"
+        );
     }
     // A law whose parameter has no meaning apart from it has no error of its own.
     let law = ChosenLaw::of(&case, LawFamily::KuwabaraKono, &[], None).unwrap();

@@ -134,7 +134,13 @@ fn errors_by_inputs(fitted: &LawFit<'_>) -> String {
             error if error.is_finite() => {
                 format!(", {} by the law itself", show_value(error, unit))
             }
-            _ => ", no fit within the error of the law itself".to_string(),
+            _ => match fitted.at_least {
+                Some(least) => format!(
+                    ", at least {} by the law itself: any stronger body does not flow",
+                    show_value(least, unit)
+                ),
+                None => ", no fit within the error of the law itself".to_string(),
+            },
         };
         format!("standard error of {}: {data} by the data{parts}{law}\n", estimate.key)
     };

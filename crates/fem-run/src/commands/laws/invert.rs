@@ -101,7 +101,8 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
                         "value": value,
                         "standard_error": solved.standard_error(k),
                         "inputs": solved.input_numbers(k),
-                        "by_law": solved.by_law[k],
+                        "range_by_law": solved.by_law[k],
+                        "at_least": solved.at_least(k),
                         "contact_time_s": contact_time,
                         "strength_at_reference_rate_pa": at_reference,
                     })
@@ -193,9 +194,10 @@ fn solve(
 fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
     let parameter = solved.parameter();
     let line = |(k, (value, time)): (usize, (f64, Option<f64>))| {
-        let shown = match solved.standard_error(k) {
-            error @ Some(_) => with_error(value, error, parameter.unit),
-            None => show_value(value, parameter.unit),
+        let shown = match (solved.at_least(k), solved.standard_error(k)) {
+            (Some(least), _) => format!("≥ {}", show_value(least, parameter.unit)),
+            (None, error @ Some(_)) => with_error(value, error, parameter.unit),
+            (None, None) => show_value(value, parameter.unit),
         };
         [
             solved.model.family().name().to_string(),
@@ -215,13 +217,20 @@ fn parts_of(solved: &LawInversion) -> Vec<[String; 4]> {
         change if change.is_finite() => show_value(change, parameter.unit),
         _ => "no solution".to_string(),
     };
-    let row = |by: String, changes: &[f64]| {
-        let changes: Vec<String> = changes.iter().map(shown).collect();
+    let row = |by: String, changes: Vec<String>| {
         let law = solved.model.family().name().to_string();
         [by, law, parameter.key.to_string(), changes.join(", ")]
     };
-    let by_input = |part: &InputPart| row(relative(&part.input), &part.changes);
-    let dents = solved.by_law.iter().any(|change| *change != 0.0);
-    let by_law = dents.then(|| row("the law itself".to_string(), &solved.by_law));
+    let by_input =
+        |part: &InputPart| row(relative(&part.input), part.changes.iter().map(shown).collect());
+    let dents = solved.by_law.iter().any(|(low, high)| low != high);
+    let ends = |(low, high): &(f64, f64)| match high.is_finite() {
+        true => {
+            format!("{} to {}", show_value(*low, parameter.unit), show_value(*high, parameter.unit))
+        }
+        false => "any stronger body does not flow".to_string(),
+    };
+    let by_law =
+        dents.then(|| row("the law itself".to_string(), solved.by_law.iter().map(ends).collect()));
     solved.inputs.iter().map(by_input).chain(by_law).collect()
 }

@@ -11,11 +11,16 @@ use std::fmt;
 
 use fem_case::schema::{End, HertzTable, ModelTable, StartTable, TingTable};
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
-use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
+use fem_collision::{
+    Approach, Collision, Monitor, OutputRequest, QuantityOfInterest, StaticContact, Stop,
+};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, FirstYield, Impact, LawError, LawInput, Pair, StaticHertz};
 
-use crate::effects::{Effect, PlateBending, Support, decide};
+use crate::effects::{
+    Effect, EffectDecision, EffectStatus, PlateBending, RateDependence, Support, decide,
+    effect_named,
+};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
@@ -189,6 +194,26 @@ impl Reduced {
         let end_rule = law.family.end_rule().unwrap_or_default();
         let (parameters, _) = law::law_numbers(scene, &Estimate::checked(scene)?, law, end_rule)?;
         Ok(parameters)
+    }
+
+    /// Returns the error of the restitution by a law with the given values at an approach speed, m/s: its own and that of neglected
+    /// effects, without the rate of strain, at which a strength of a law is. `None` if it is not known, or the law cannot be made of
+    /// the scene.
+    pub fn restitution_error(scene: &Scene, law: LawInput, speed: f64) -> Option<f64> {
+        let end_rule = law.family.end_rule().unwrap_or_default();
+        let tolerance = fem_case::defaults::LAW_TOLERANCE;
+        let scene =
+            scene.touching_at(speed)?.with_model(ModelChoice::Law { law, end_rule, tolerance });
+        let setup = Self::new(&scene).ok()?.setup;
+        let of_effect = |decision: &EffectDecision| {
+            let effect = effect_named(decision.name)?;
+            let neglect_error = effect.neglect_error(&scene, &setup.estimate);
+            let status = EffectStatus { is_lacking: decision.is_lacking, neglect_error };
+            let error = effect.model_form_error(&scene, &setup.estimate, &status);
+            error.size(QuantityOfInterest::Restitution)
+        };
+        let decisions = setup.decisions.all.iter().filter(|it| it.name != RateDependence::NAME);
+        decisions.map(of_effect).sum()
     }
 
     /// Returns the first yield of the body that flows under a law that dents, with that body's flow stress and without a plate;
