@@ -144,15 +144,18 @@ impl FirstYield {
         let found = [first, second].into_iter().enumerate();
         let found = found.filter_map(|(index, yields)| Some((index, yields?)));
         let (index, earliest) = found.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
-        let both = [first, second].into_iter().flatten();
-        let flowing: Vec<Self> =
-            both.filter(|it| it.pressure < BOTH_FLOW * earliest.pressure).collect();
-        if flowing.len() == 1 {
-            return Some((index, earliest));
-        }
+        let other = if index == 0 { second } else { first };
+        // From like bodies to one that flows alone, linear in the ratio of the pressures.
+        let ratio = other.map_or(f64::INFINITY, |other| other.pressure / earliest.pressure);
+        let alone = ((ratio - 1.0) / (BOTH_FLOW - 1.0)).min(1.0);
         let radius = hertz.pair().effective_radius();
-        let flattening_share = flowing.iter().map(|it| (radius / it.body.radius).powi(2)).sum();
-        Some((index, Self { flattening_share, elastic_share: 0.0, ..earliest }))
+        let both = [first, second].into_iter().flatten();
+        let of_both: f64 = both.map(|it| (radius / it.body.radius).powi(2)).sum();
+        let between =
+            |both: f64, own: f64| if alone < 1.0 { both + alone * (own - both) } else { own };
+        let flattening_share = between(of_both, earliest.flattening_share);
+        let elastic_share = between(0.0, earliest.elastic_share);
+        Some((index, Self { flattening_share, elastic_share, ..earliest }))
     }
 
     /// Returns the body that yields.

@@ -139,6 +139,21 @@ fn models_without_relaxation_lack_it_beside_folded_terms() {
     }
 }
 
+/// A law that takes its damping from the materials as their slow limit is off by its error bar where they relax within the contact.
+#[test]
+fn the_slow_limit_has_an_error_bar() {
+    for time in ["1 us", "5 us", "20 us", "60 us"] {
+        let terms = format!(
+            "material.polymer.relaxation.terms=[{{weight=0.2,relaxation_time='{time}'}},{{weight=0.05,relaxation_time='1 d'}}]"
+        );
+        let ting = summary_of(POLYMER, &["model.ting={}", &terms]).collision;
+        let law = summary_of(POLYMER, &["model.law.kuwabara_kono={}", &terms]);
+        let bar = law.uncertainty.of(QuantityOfInterest::Restitution).model.unwrap();
+        let off = (law.collision.restitution.unwrap() - ting.restitution.unwrap()).abs();
+        assert!(off < 1.01 * bar && bar < 1.5 * off + 0.01, "{time}: {bar} for {off}");
+    }
+}
+
 /// Fast terms that are folded are in the moduli, and no error of a model without relaxation.
 #[test]
 fn folded_fast_terms_are_no_error() {

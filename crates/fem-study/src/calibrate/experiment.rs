@@ -136,7 +136,7 @@ fn bends(case: &Case, slowest: f64) -> Result<bool, CalibrationFault> {
 }
 
 /// Returns the model for the bodies and speeds of the data, and the data that it can compute: contacts that are too large for the first
-/// order of the spheres' finite size are left out, unless all are.
+/// order of the spheres' finite size are left out, unless they are half of them.
 ///
 /// # Errors
 /// A plate that is bonded below; a body or a speed without a Hertz impact.
@@ -164,7 +164,8 @@ pub fn chosen_model(
             is_kept[*point] = size.check(hertz.max_contact_radius()).is_ok();
         }
     }
-    let measured = if is_kept.contains(&true) { measured.kept(&is_kept) } else { measured };
+    let n_kept = is_kept.iter().filter(|kept| **kept).count();
+    let measured = if 2 * n_kept > is_kept.len() { measured.kept(&is_kept) } else { measured };
     Ok((model, measured))
 }
 

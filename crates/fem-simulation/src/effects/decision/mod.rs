@@ -190,14 +190,7 @@ pub trait Effect: NamedEffect {
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
-        if !status.is_lacking {
-            return QuantityErrors::ZERO;
-        }
-        match &status.neglect_error {
-            Some(neglect_error) => neglect_error.of_all_quantities(estimate),
-            None if is_needed(self, scene, estimate) => QuantityErrors::default(),
-            None => QuantityErrors::ZERO,
-        }
+        status.error(self, scene, estimate)
     }
 
     /// Returns how well a model computes the effect, for an effect by which models differ.

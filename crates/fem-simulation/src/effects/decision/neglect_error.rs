@@ -14,10 +14,12 @@
 
 use std::fmt;
 
+use fem_case::Scene;
 use fem_case::engineering::{Unit, number};
 use fem_collision::QuantityOfInterest;
 use serde::Serialize;
 
+use super::{Effect, is_needed};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
@@ -28,6 +30,25 @@ pub struct EffectStatus {
     pub is_lacking: bool,
     /// Error of neglecting the effect ([`Effect::neglect_error`](super::Effect::neglect_error)).
     pub neglect_error: Option<NeglectError>,
+}
+
+impl EffectStatus {
+    /// Returns the error of neglecting an effect if the run lacks it.
+    pub(crate) fn error<E: Effect + ?Sized>(
+        &self,
+        effect: &E,
+        scene: &Scene,
+        estimate: &Estimate,
+    ) -> QuantityErrors {
+        if !self.is_lacking {
+            return QuantityErrors::ZERO;
+        }
+        match &self.neglect_error {
+            Some(neglect_error) => neglect_error.of_all_quantities(estimate),
+            None if is_needed(effect, scene, estimate) => QuantityErrors::default(),
+            None => QuantityErrors::ZERO,
+        }
+    }
 }
 
 /// Change of a collision's results if an effect is neglected, estimated by closed forms. All are

@@ -7,14 +7,18 @@ use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
-use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
+use crate::effects::decision::simplified_scene::{
+    SimplifiedScene, Transformation, TransformedScene,
+};
 use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
-use crate::effects::ting_prediction::change_between;
+use crate::effects::ting_prediction::{TingPrediction, change_between};
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::models::Reduced;
+use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
 /// Largest error by all folded terms in restitution (absolute), contact time and peak force: a hundredth of the default
@@ -102,6 +106,30 @@ impl Effect for Viscoelasticity {
         };
         Some(change_between(&with, &without, estimate.hertz.approach_speed()))
     }
+
+    /// A law whose damping is the slow limit of the materials differs from them where they do not relax within the contact.
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        status: &EffectStatus,
+    ) -> QuantityErrors {
+        match scene.model() {
+            ModelChoice::Law { law, .. } if law.is_slow_limit() && !relaxing(scene).is_empty() => {
+                error_of_slow_limit(scene, estimate).unwrap_or_default()
+            }
+            _ => status.error(self, scene, estimate),
+        }
+    }
+}
+
+/// Returns the distances of a law's quantities from those of Ting's model of the same bodies.
+fn error_of_slow_limit(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
+    let speed = estimate.hertz.approach_speed();
+    let computed = SimplifiedScene::quiet(scene)?;
+    let ting = TingPrediction::of(&computed, speed, false).ok()?;
+    let own = TingPrediction::from(&Reduced::new(&computed).ok()?.impact(speed).ok()?);
+    Some(own.change_from(&ting).of_all_quantities(estimate))
 }
 
 impl Viscoelasticity {
