@@ -10,6 +10,7 @@ use fem_material::{FlowRule, RateFactor};
 
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::free_plate;
+use crate::estimate::regime::Regime;
 use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
 
@@ -118,7 +119,8 @@ pub fn restitution_error(scene: &Scene, law: LawInput, speed: f64) -> Option<f64
     let end_rule = law.family.end_rule().unwrap_or_default();
     let model = ModelChoice::Law { law, end_rule, tolerance: fem_case::defaults::LAW_TOLERANCE };
     let scene = scene.touching_at(speed)?.with_model(model);
-    law_error(&scene, &Estimate::checked(&scene).ok()?)?.size(QuantityOfInterest::Restitution)
+    let Regime { scene, estimate } = Regime::of(scene).ok()?;
+    law_error(&scene, &estimate)?.size(QuantityOfInterest::Restitution)
 }
 
 /// Returns the errors of a scene's law that dents, where it has a yield strength: its difference from the mean-pressure law of the

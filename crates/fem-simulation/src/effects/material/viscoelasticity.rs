@@ -14,7 +14,7 @@ use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
 use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
-use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::estimate::quasi_static::ting_of;
 use crate::rejection::Rejection;
 
 /// Largest error by all folded terms in restitution (absolute), contact time and peak force: a hundredth of the default
@@ -100,7 +100,7 @@ impl Effect for Viscoelasticity {
             Some(folded) => elastic(&folded.scene, materials(&folded.scene)),
             None => self.switched(scene, Some(Switch::Off)),
         };
-        Some(change_between(&with, &without, estimate.hertz.approach_speed()))
+        Some(change_between(&with, &without, estimate))
     }
 }
 
@@ -131,7 +131,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     let hertz = &estimate.hertz;
     let ting =
         ting_of(scene, hertz.pair(), true, None).ok()?.with_tolerance(LOSS_TOLERANCE).ok()?;
-    let relaxing = known_impact(ting, hertz.approach_speed()).ok()?.restitution;
+    let relaxing = estimate.impacts.impact(ting, hertz.approach_speed()).ok()?.restitution;
     Some((relaxing - hertz.restitution()).abs())
 }
 
