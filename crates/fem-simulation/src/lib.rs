@@ -29,6 +29,7 @@ pub use estimate::approach::approach_of;
 pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
 pub use estimate::plate_impact::free_plate;
 pub use estimate::quasi_static::ting_impact;
+pub use estimate::regime::Regime;
 pub use models::method::{
     Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels,
 };

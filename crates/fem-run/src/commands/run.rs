@@ -86,7 +86,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let simulation = Simulation::new(input.load_within(&options.within)?)?;
     options.check_tolerance(&simulation)?;
     let making = begin.elapsed().as_secs_f64();
-    let identity = Identity::of(simulation.case())?;
+    let identity = simulation.identity()?;
     let stem = input.stem();
     let origin = input.origin_within(&options.within, "run", identity.case.clone());
     let name = simulation.case().folder_name(&stem);

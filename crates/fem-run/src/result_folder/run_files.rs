@@ -11,7 +11,7 @@ use fem::results::{
     CONTACT_FILE, DENT_FILE, HISTORY_FILE, HistoryColumns, PROBES_FILE, SUMMARY_FILE, Summary,
     contact_csv, dent_csv, has_contact, history_columns, history_csv, probes_csv, write_snapshots,
 };
-use fem::{ComputedCollision, Identity, Simulation};
+use fem::{ComputedCollision, Simulation};
 use fem_case::Keep;
 use fem_case::engineering::Unit;
 use fem_collision::{Collision, SnapshotInstant};
@@ -47,7 +47,7 @@ pub fn save(
     stopwatch: &Stopwatch,
     force: bool,
 ) -> Result<(), Failure> {
-    let identity = Identity::of(computed.simulation.case())?;
+    let identity = computed.simulation.identity()?;
     let origin = Origin::of_digest("run", identity.case);
     let place = ResultFolder::claim(folder, &longest_name(stem), origin, force)?;
     let written = write_result(&place, stem, computed, stopwatch, Keep::All, &[]);

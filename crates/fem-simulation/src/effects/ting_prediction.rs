@@ -8,7 +8,7 @@ use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::{NamedEffect, PartnerWaves};
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::{plate_mobility_of, thin_plate_mobility};
-use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
+use crate::estimate::quasi_static::{surfaces_slip, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;
 
 /// Relative accuracy of the predictions.
@@ -25,13 +25,14 @@ pub(crate) struct TingPrediction {
 }
 
 impl TingPrediction {
-    /// Predicts the collision of a scene at an approach speed (m/s), with its relaxation and radiated
-    /// waves; between half-spaces, or with the spheres' finite size.
+    /// Predicts the collision of a variant of an estimated scene, with its relaxation and radiated waves; between
+    /// half-spaces, or with the spheres' finite size.
     ///
     /// # Errors
     /// Numbers that the law rejects.
-    pub fn of(scene: &Scene, speed: f64, finite_size: bool) -> Result<Self, LawError> {
-        let estimate = Estimate::at(scene, speed)?;
+    pub fn of(scene: &Scene, estimate: &Estimate, finite_size: bool) -> Result<Self, LawError> {
+        let speed = estimate.hertz.approach_speed();
+        let estimate = estimate.of_variant(scene, speed)?;
         let is_condensed = matches!(scene.model(), ModelChoice::Condensed(_));
         let radiating = match is_condensed {
             true => PartnerWaves::radiating_at_rest(scene, &estimate),
@@ -44,28 +45,29 @@ impl TingPrediction {
         }
         let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(PREDICTION_TOLERANCE);
         if radiates && !is_condensed {
-            let impact = radiating_impact(scene, &radiating, speed, finite_size, finish)?;
+            let impact = radiating_impact(scene, &radiating, &estimate, finite_size, finish)?;
             return Ok(Self::from(&impact));
         }
         let size = finite_size.then(|| scene.finite_size()).transpose()?;
         let ting = finish(ting_of(scene, estimate.hertz.pair(), true, size)?)?;
         let ting = ting.with_radiation(radiating.iter().flatten())?;
-        Ok(Self::from(&*known_impact(ting, speed)?))
+        Ok(Self::from(&*estimate.impacts.impact(ting, speed)?))
     }
 
-    /// Predicts the collision between half-spaces of elastic or relaxing bodies, of which a plate has its finite thickness,
+    /// Predicts the collision of a variant between half-spaces of elastic or relaxing bodies, of which a plate has its finite thickness,
     /// without waves.
     ///
     /// # Errors
     /// Numbers that the law rejects.
-    pub fn on_thick_plate(scene: &Scene, speed: f64) -> Result<Self, LawError> {
-        let pair = *Estimate::at(scene, speed)?.hertz.pair();
+    pub fn on_thick_plate(scene: &Scene, estimate: &Estimate) -> Result<Self, LawError> {
+        let speed = estimate.hertz.approach_speed();
+        let pair = *estimate.of_variant(scene, speed)?.hertz.pair();
         let ting = ting_of(scene, &pair, true, None)?.with_tolerance(PREDICTION_TOLERANCE)?;
         let ting = match plate_mobility_of(scene, &pair)? {
             Some(mobility) => ting.with_plate(mobility)?,
             None => ting,
         };
-        Ok(Self::from(&*known_impact(ting, speed)?))
+        Ok(Self::from(&*estimate.impacts.impact(ting, speed)?))
     }
 
     /// Returns the difference from another impact. Bodies that stay together have no contact time. A loss of more
@@ -84,13 +86,14 @@ impl TingPrediction {
     }
 }
 
-/// Returns the difference between two scenes at the same approach speed (m/s), after all transformations. Waves are
+/// Returns the difference between two variants of an estimated scene, after all transformations. Waves are
 /// left out where they are more than a correction; all is `None` where Ting's model has no solution.
-pub(super) fn change_between(with: &Scene, without: &Scene, speed: f64) -> NeglectError {
-    let [with, without] = [with, without].map(SimplifiedScene::quiet);
+pub(super) fn change_between(with: &Scene, without: &Scene, estimate: &Estimate) -> NeglectError {
+    let [with, without] = [with, without].map(|scene| SimplifiedScene::quiet(scene, estimate));
     let Some((with, without)) = with.zip(without) else { return NeglectError::default() };
     let change = |with: &Scene, without: &Scene, size: bool| {
-        let [with, without] = [with, without].map(|scene| TingPrediction::of(scene, speed, size));
+        let [with, without] =
+            [with, without].map(|scene| TingPrediction::of(scene, estimate, size));
         Some(with.ok()?.change_from(&without.ok()?))
     };
     let without_waves = |scene: &Scene| PartnerWaves.switched(scene, Some(Switch::Off));
@@ -106,11 +109,10 @@ pub(super) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
     if !relaxes(scene) {
         return 0.0;
     }
-    let speed = estimate.hertz.approach_speed();
     // Compliance of finite spheres changes the relaxation, too.
     let size = has_finite_size(scene);
-    let sized = size.then(|| TingPrediction::of(scene, speed, true).ok()).flatten();
-    let impact = sized.or_else(|| TingPrediction::of(scene, speed, false).ok());
+    let sized = size.then(|| TingPrediction::of(scene, estimate, true).ok()).flatten();
+    let impact = sized.or_else(|| TingPrediction::of(scene, estimate, false).ok());
     let loss = impact.map_or(0.0, |impact| 1.0 - impact.restitution);
     (loss - PartnerWaves::loss(scene, estimate)).max(0.0)
 }

@@ -11,7 +11,6 @@ use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, move
 use super::reference_runs::{EstimatedCollision, ReferenceRuns, Values};
 use super::stress_error::{ContactStress, StressError};
 use crate::effects::FiniteStrain;
-use crate::estimate::Estimate;
 use crate::models::bouncing::element_sizes;
 use crate::models::explicit::cost::needs_own_reference;
 use crate::models::method::Cost;
@@ -102,7 +101,7 @@ impl ErrorEstimator {
         let floor = floor_of_run(simulation, collision)(restitution);
         let later = |(bounce, size): (&Bounce, Option<f64>)| {
             let approach = Approach::new([0.0, -bounce.speed_before], 0.0).ok()?;
-            let radius = Estimate::at(&scene, bounce.speed_before).ok()?.contact_radius;
+            let radius = simulation.estimate(&approach)?.contact_radius;
             let contact = Collision {
                 restitution: Some(bounce.restitution),
                 contact_time: bounce.contact_time,
@@ -132,7 +131,9 @@ impl ErrorEstimator {
         let estimated = self.reference_error(simulation, collision, size, values, widest);
         let Some((errors, calibration)) = estimated else { return [None; 6] };
         let shares = Shares {
-            relaxed: simulation.estimate(collision).map_or(0.0, |estimate| estimate.relaxed),
+            relaxed: simulation
+                .estimate(&collision.approach)
+                .map_or(0.0, |estimate| estimate.relaxed),
             moved: moved_share(simulation, collision),
         };
         bar_parts(errors, calibration, [widest, at_pressure], shares)
@@ -241,7 +242,7 @@ impl ErrorEstimator {
 /// Returns whether the error of explicit elements needs a reference run of explicit elements.
 fn needs_own(simulation: &Simulation, collision: &Collision) -> bool {
     let is_finite = || simulation.decisions(collision).is_active(FiniteStrain::NAME);
-    let estimate = simulation.estimate(collision);
+    let estimate = simulation.estimate(&collision.approach);
     estimate.is_none_or(|estimate| needs_own_reference(&estimate, is_finite()))
 }
 

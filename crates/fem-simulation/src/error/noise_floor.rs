@@ -141,7 +141,7 @@ pub(super) fn contact_element_size(simulation: &Simulation, collision: &Collisio
 pub(crate) fn widest_contact(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let radius = collision.max_contact_radius.filter(|_| collision.is_complete())?;
     let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
-    let expected = simulation.estimate(collision)?.contact_radius;
+    let expected = simulation.estimate(&collision.approach)?.contact_radius;
     Some(if radius > 0.0 && expected >= size { radius } else { expected })
 }
 
@@ -156,7 +156,7 @@ pub(crate) fn is_unresolved(simulation: &Simulation, collision: &Collision) -> b
 /// and spans few elements. Meshes of similar size agree on a wrong pressure there, and the mesh is not refined for it.
 pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let size = contact_element_size(simulation, collision)?;
-    let effective = simulation.estimate(collision)?.effective;
+    let effective = simulation.estimate(&collision.approach)?.effective;
     let radius = effective.pressure_radius;
     let is_early = radius < EARLY * effective.sizes.max_contact_radius;
     (is_early && radius < FEW_AT_PRESSURE * size).then_some(radius)
@@ -165,7 +165,8 @@ pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collisi
 /// Returns the relative distance of the peak pressure from that of closed forms, with their own error.
 fn distance_from_closed_form(simulation: &Simulation, collision: &Collision) -> f64 {
     // The closed forms are elastic.
-    let estimate = simulation.estimate(collision).filter(|estimate| estimate.flow.is_none());
+    let estimate =
+        simulation.estimate(&collision.approach).filter(|estimate| estimate.flow.is_none());
     let expected = estimate.map(|estimate| estimate.effective.sizes.peak_pressure);
     let both = collision.peak_pressure.zip(expected);
     both.map_or(0.0, |(value, expected)| CLOSED_FORM_PRESSURE * (1.0 - expected / value).abs())

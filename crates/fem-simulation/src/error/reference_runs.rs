@@ -9,7 +9,6 @@ use fem_collision::{
 use super::calibration::ORDER;
 use super::setting::Setting;
 use super::stress_error::{ContactStress, StressError};
-use crate::estimate::Estimate;
 use crate::models::method::{Cost, SharedModels};
 use crate::plan::Plan;
 use crate::simulation::Simulation;
@@ -86,9 +85,8 @@ impl<'a> EstimatedCollision<'a> {
 
     /// Returns the key by which the case replaces the chosen mesh away from the contact, if it does.
     pub fn far_mesh_key(&self) -> Option<&'static str> {
-        let scene = self.simulation.case().scene();
-        let estimate = Estimate::at(scene, self.approach.speed()).ok()?;
-        self.plan.far_mesh_key(scene, estimate.contact_radius)
+        let radius = self.simulation.estimate(&self.approach)?.contact_radius;
+        self.plan.far_mesh_key(self.simulation.case().scene(), radius)
     }
 
     fn staggered(&self) -> Setting {

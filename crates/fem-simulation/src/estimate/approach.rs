@@ -10,7 +10,6 @@ use fem_collision::{Approach, Frame, POST_CONTACT_FRACTION, RelativeMotion, Rest
 use fem_laws::Impact;
 
 use crate::estimate::Estimate;
-use crate::estimate::quasi_static::predicted_impact;
 use crate::rejection::Rejection;
 
 /// Returns how the bodies of a scene meet; for a falling ball, at its first touch.
@@ -40,7 +39,8 @@ pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &A
     if estimate.relaxed == 0.0 {
         return by_estimate;
     }
-    let impact = predicted_impact(scene, estimate, approach.speed());
+    let Estimate { hertz, impacts, .. } = estimate;
+    let impact = impacts.on_half_spaces(scene, hertz.pair(), approach.speed());
     let predicted = impact.ok().and_then(|impact| duration_of(scene, estimate, approach, &impact));
     predicted.unwrap_or(by_estimate)
 }

@@ -18,7 +18,7 @@ use fem_collision::{Collision, QuantityOfInterest};
 use fem_laws::{HertzImpact, Impact, ImpactQuantities, LawError};
 use fem_material::{ElasticModuli, Material};
 
-use crate::estimate::quasi_static::predicted_on_half_spaces;
+use crate::estimate::quasi_static::KnownImpacts;
 use crate::estimate::{Estimate, pair_at};
 
 /// Bisections of the logarithm of t_s.
@@ -47,8 +47,12 @@ impl EffectiveModuli {
     }
 
     /// Returns the effective moduli of strongly relaxing bodies; `elastic` is the impact with instantaneous moduli.
-    pub(crate) fn much(scene: &Scene, elastic: &HertzImpact) -> Result<Self, LawError> {
-        let impact = predicted_on_half_spaces(scene, elastic.pair(), elastic.approach_speed())?;
+    pub(crate) fn much(
+        scene: &Scene,
+        elastic: &HertzImpact,
+        impacts: &KnownImpacts,
+    ) -> Result<Self, LawError> {
+        let impact = impacts.on_half_spaces(scene, elastic.pair(), elastic.approach_speed())?;
         let met = impact.peak_force / elastic.force(impact.max_approach);
         let share = |after: f64| {
             let pair = pair_at(scene, after, 0.0);
@@ -109,7 +113,7 @@ impl Estimate {
 
     /// Replaces the expected quantities of relaxing bodies by those of the finished collision.
     pub(crate) fn with_computed(&self, collision: &Collision) -> Self {
-        let mut computed = *self;
+        let mut computed = self.clone();
         if self.relaxed == 0.0 {
             return computed;
         }

@@ -5,20 +5,19 @@ pub(crate) mod effective_modulus;
 pub(crate) mod plastic_flow;
 pub(crate) mod plate_impact;
 pub(crate) mod quasi_static;
+pub(crate) mod regime;
 pub(crate) mod semi_infinite_partner;
 pub(crate) mod viscous_flow;
 
 use fem_case::{Body, ModelChoice, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
-use fem_material::engineering::{number, show};
 use fem_material::{ElasticModuli, Material};
 
 use crate::estimate::effective_modulus::{EffectiveModuli, sizes_of};
 use crate::estimate::plastic_flow::flowing_impact;
 use crate::estimate::plate_impact::{PlateImpact, thin_plate_mobility};
-use crate::estimate::quasi_static::predicted_on_half_spaces;
-use crate::rejection::Rejection;
+use crate::estimate::quasi_static::KnownImpacts;
 
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
 const MIN_MODULUS: f64 = 0.05;
@@ -26,7 +25,7 @@ const MIN_MODULUS: f64 = 0.05;
 const LARGE_LOSS_OF_MODULI: f64 = 0.5;
 
 /// Closed-form estimates of a collision, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Hertz' impact with instantaneous moduli.
     pub hertz: HertzImpact,
@@ -57,46 +56,11 @@ pub struct Estimate {
     pub effective_mach: f64,
     /// Speed ratio [`Estimate::ringing`] with the effective moduli.
     pub effective_ringing: f64,
+    /// The impacts that are known of the scene and its variants.
+    pub(crate) impacts: KnownImpacts,
 }
 
 impl Estimate {
-    /// Returns the estimate of a scene for which a model is built.
-    ///
-    /// # Errors
-    /// Those of [`Estimate::of`], as a fault of the scene; masses out of the range of f64.
-    pub fn checked(scene: &Scene) -> Result<Self, Rejection> {
-        let rejected = |why: String| {
-            Rejection::new("body", format!("the collision cannot be estimated: {why}"))
-                .with_help("check sizes, densities, moduli and speeds, and their units")
-        };
-        // An infinite mass would count as a wall, and products of masses must be finite too.
-        let bodies = scene.bodies().iter().enumerate();
-        let mut masses = bodies.filter_map(|(k, body)| Some((k, body, body.mass()?)));
-        if let Some((k, body, mass)) = masses.find(|(_, _, mass)| !(mass * mass).is_normal()) {
-            let (density, diameter) = (body.material().map(Material::density), body.diameter());
-            // The factor that is farther from 1 in SI, by its power in the mass, is the likely cause.
-            let far = |value: Option<f64>| value.map_or(0.0, |value| value.log10().abs());
-            let is_density = far(density) > 3.0 * far(diameter);
-            let (part, of) = match is_density {
-                true => {
-                    ("material", format!("density is {} kg/m^3", number(density.unwrap_or(0.0), 4)))
-                }
-                false => (
-                    "sphere.diameter",
-                    format!("diameter is {}", show(diameter.unwrap_or(0.0), "m")),
-                ),
-            };
-            let mut rejection = rejected(format!(
-                "the mass of {} is {} kg, since its {of}; its square must be a number",
-                body.name(),
-                number(mass, 4)
-            ));
-            rejection.key = format!("body.{k}.{part}");
-            return Err(rejection);
-        }
-        Self::of(scene).map_err(|error| rejected(error.to_string()))
-    }
-
     /// Returns the expected contact time and approach for the run.
     pub fn expectation(&self) -> Expectation {
         Expectation { contact_time: self.contact_time, approach: self.approach }
@@ -115,6 +79,18 @@ impl Estimate {
     /// # Errors
     /// Those of [`Estimate::of`].
     pub fn at(scene: &Scene, speed: f64) -> Result<Self, LawError> {
+        Self::with_known(scene, speed, KnownImpacts::default())
+    }
+
+    /// Returns the estimate of a variant of the scene at an approach speed (m/s), with the impacts that are known already.
+    ///
+    /// # Errors
+    /// Those of [`Estimate::of`].
+    pub(crate) fn of_variant(&self, scene: &Scene, speed: f64) -> Result<Self, LawError> {
+        Self::with_known(scene, speed, self.impacts.clone())
+    }
+
+    fn with_known(scene: &Scene, speed: f64, impacts: KnownImpacts) -> Result<Self, LawError> {
         let hertz = HertzImpact::new(&pair_at(scene, 0.0, MIN_MODULUS)?, speed)?;
         let mut relaxed_impact = hertz;
         // The contact time depends weakly on the moduli: a few passes converge.
@@ -136,7 +112,7 @@ impl Estimate {
         let flow = flow.map(|impact| impact.quantities);
         // A plate takes part of the force and lengthens the contact.
         let bent = thin_plate_mobility(scene)
-            .and_then(|_| predicted_on_half_spaces(scene, hertz.pair(), speed).ok());
+            .and_then(|_| impacts.on_half_spaces(scene, hertz.pair(), speed).ok());
         let bent = bent.map(|impact| {
             let last = impact.history.last().map_or(0.0, |instant| instant.time);
             let sizes = sizes_of(&impact, &relaxed_impact);
@@ -157,7 +133,7 @@ impl Estimate {
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
         let effective = match relaxed > LARGE_LOSS_OF_MODULI {
-            true => EffectiveModuli::much(scene, &hertz).ok(),
+            true => EffectiveModuli::much(scene, &hertz, &impacts).ok(),
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
@@ -182,6 +158,7 @@ impl Estimate {
             effective,
             effective_mach: mach(&twin, speed),
             effective_ringing: ringing(&twin, effective.hertz.contact_time()),
+            impacts,
         };
         estimate.bends =
             PlateImpact::of(scene, &estimate).is_some_and(|plate| !plate.is_half_space());

@@ -1,14 +1,13 @@
 //! Ting's quasi-static impact of a scene, which predicts approach and contact time of relaxing bodies.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 
 use fem_case::{Body, Scene, Shape, Switch};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
-use crate::estimate::Estimate;
 use crate::estimate::plate_impact::{plate_mobility_of, thin_plate_mobility};
+use crate::plan::pair_cache::lock;
 
 /// Returns Ting's impact of a scene between half-spaces, or with the compliance of finite spheres in series, however large
 /// the contact.
@@ -23,57 +22,49 @@ pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
 /// Relative accuracy of an impact used for prediction only.
 const ESTIMATE_TOLERANCE: f64 = 1e-3;
 
-/// Predicts Ting's impact of an estimated scene between half-spaces at a speed (m/s).
-pub(crate) fn predicted_impact(
-    scene: &Scene,
-    estimate: &Estimate,
-    speed: f64,
-) -> Result<Rc<Impact>, LawError> {
-    predicted_on_half_spaces(scene, estimate.hertz.pair(), speed)
-}
-
-/// Predicts Ting's impact of a pair with instantaneous moduli between half-spaces at a speed (m/s).
-pub(crate) fn predicted_on_half_spaces(
-    scene: &Scene,
-    pair: &Pair,
-    speed: f64,
-) -> Result<Rc<Impact>, LawError> {
-    let ting = ting_of(scene, pair, true, None)?.with_coarse_waves();
-    known_impact(ting.with_tolerance(ESTIMATE_TOLERANCE)?, speed)
-}
-
-/// Impacts that are cached. The choice of a model needs two dozen, most of them once per candidate.
-const CACHED_IMPACTS: usize = 32;
+/// Impacts that are kept. The choice of a model needs two dozen, most of them once per candidate.
+const KEPT_IMPACTS: usize = 32;
 
 /// A viscoelastic pair, the speed of its impact (m/s), and the result.
-type Known = (Ting, f64, Result<Rc<Impact>, LawError>);
+type Known = (Ting, f64, Result<Arc<Impact>, LawError>);
 
-thread_local! {
-    /// The last impacts that this thread has computed.
-    static LAST: RefCell<Vec<Known>> = const { RefCell::new(Vec::new()) };
-    /// Number of computed impacts.
-    #[cfg(test)]
-    static COMPUTED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+/// Ting's impacts of a scene and its variants, which all estimates of them share.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct KnownImpacts(Arc<Mutex<Vec<Known>>>);
+
+/// Estimates are the same, whichever impacts are known.
+impl PartialEq for KnownImpacts {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
-/// Returns [`Ting::impact`] from the cache of the last ones, or computes it. The effects compare impacts that are mostly
-/// the same. A failed impact, which takes longest, is cached too.
-pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawError> {
-    let known = LAST.with_borrow(|last| {
-        let same = last.iter().find(|(other, at, _)| *at == speed && *other == ting);
-        same.map(|(.., impact)| impact.clone())
-    });
-    if let Some(impact) = known {
-        return impact;
+impl KnownImpacts {
+    /// Returns [`Ting::impact`], computed once. The effects compare impacts that are mostly the same. A failed impact,
+    /// which takes longest, is kept too.
+    pub(crate) fn impact(&self, ting: Ting, speed: f64) -> Result<Arc<Impact>, LawError> {
+        let is_it = |(other, at, _): &&Known| *at == speed && *other == ting;
+        if let Some((.., impact)) = lock(&self.0).iter().find(is_it) {
+            return impact.clone();
+        }
+        let impact = ting.impact(speed).map(Arc::new);
+        let mut known = lock(&self.0);
+        let n_dropped = (known.len() + 1).saturating_sub(KEPT_IMPACTS);
+        known.drain(..n_dropped);
+        known.push((ting, speed, impact.clone()));
+        impact
     }
-    let impact = ting.impact(speed).map(Rc::new);
-    #[cfg(test)]
-    COMPUTED.set(COMPUTED.get() + 1);
-    LAST.with_borrow_mut(|last| {
-        last.drain(..(last.len() + 1).saturating_sub(CACHED_IMPACTS));
-        last.push((ting, speed, impact.clone()));
-    });
-    impact
+
+    /// Predicts the impact of a scene's pair with instantaneous moduli between half-spaces at a speed (m/s).
+    pub(crate) fn on_half_spaces(
+        &self,
+        scene: &Scene,
+        pair: &Pair,
+        speed: f64,
+    ) -> Result<Arc<Impact>, LawError> {
+        let ting = ting_of(scene, pair, true, None)?.with_coarse_waves();
+        self.impact(ting.with_tolerance(ESTIMATE_TOLERANCE)?, speed)
+    }
 }
 
 /// Effective radius times mismatch below which surfaces slip only by the rounding of their moduli.
@@ -145,6 +136,7 @@ mod tests {
     use fem_case::Case;
 
     use super::*;
+    use crate::estimate::regime::Regime;
     use crate::models::SelectedModel;
 
     /// A scene far outside Ting's range: ten terms over ten decades, and bodies whose stiffness differs by 1e15.
@@ -182,13 +174,21 @@ mod tests {
     #[test]
     fn model_selection_computes_each_impact_once() {
         let case = Case::parse("extreme.toml", EXTREME, Path::new("."), &[]).unwrap();
-        let before = COMPUTED.get();
-        let _ = SelectedModel::of(case.scene());
-        let once = COMPUTED.get() - before;
-        assert!((1..=CACHED_IMPACTS).contains(&once), "{once}");
-        let _ = SelectedModel::of(case.scene());
-        assert_eq!(COMPUTED.get() - before, once);
-        let known = LAST.with_borrow(|last| last.iter().filter(|(.., came)| came.is_err()).count());
-        assert!(known > 0, "the scene has an impact that Ting's model cannot compute");
+        let regime = Regime::of(case.scene().clone()).unwrap();
+        let known = || {
+            let known = lock(&regime.estimate.impacts.0);
+            let address =
+                |impact: &Result<Arc<Impact>, LawError>| impact.clone().map(|it| Arc::as_ptr(&it));
+            known.iter().map(|(.., impact)| address(impact)).collect::<Vec<_>>()
+        };
+        let _ = SelectedModel::of(regime.clone());
+        let once = known();
+        assert!((1..KEPT_IMPACTS).contains(&once.len()), "{}", once.len());
+        let _ = SelectedModel::of(regime.clone());
+        assert_eq!(known(), once);
+        assert!(
+            once.iter().any(Result::is_err),
+            "the scene has an impact that Ting's model cannot compute"
+        );
     }
 }

@@ -10,24 +10,24 @@
 //!
 //! and the part ½MV² of the radiated energy, V = (m/M)(v − δ̇′), is the kinetic energy of the partner.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use fem_case::{Body, Scene};
 use fem_laws::{Impact, ImpactInstant, LawError, Pair, Ting, restitution_of_mass_centres};
 use fem_material::Material;
 
-use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::estimate::Estimate;
+use crate::estimate::quasi_static::ting_of;
 
-/// Returns Ting's impact at a speed (m/s) of a scene with radiating bodies, given by their materials; `finish` sets the
-/// accuracy.
+/// Returns Ting's impact of an estimated scene with radiating bodies, given by their materials; `finish` sets the accuracy.
 pub(crate) fn radiating_impact(
     scene: &Scene,
     radiating: &[Option<Material>; 2],
-    speed: f64,
+    estimate: &Estimate,
     finite_size: bool,
     finish: impl FnOnce(Ting) -> Result<Ting, LawError>,
 ) -> Result<Impact, LawError> {
-    let partner = Partner::of(scene, radiating);
+    let (partner, speed) = (Partner::of(scene, radiating), estimate.hertz.approach_speed());
     // The large partner keeps its curvature, is held, and has the compliance of a half-space.
     let [first, second] = [0, 1].map(|side: usize| {
         let body = scene.bodies()[side].partner();
@@ -40,7 +40,7 @@ pub(crate) fn radiating_impact(
         finite_size.then(|| half_space.as_ref().unwrap_or(scene).finite_size()).transpose()?;
     let ting = finish(ting_of(scene, &pair, true, size)?)?;
     let ting = ting.with_radiation(radiating.iter().flatten())?;
-    let impact = Rc::unwrap_or_clone(known_impact(ting, speed)?);
+    let impact = Arc::unwrap_or_clone(estimate.impacts.impact(ting, speed)?);
     Ok(match partner {
         Some(Partner { mass, mass_ratio, .. }) => of_mass_centres(impact, mass, mass_ratio, speed),
         None => impact,

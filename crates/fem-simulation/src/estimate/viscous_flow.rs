@@ -5,7 +5,7 @@
 //! contact times. Ting's impact between half-spaces predicts both within some per cent. If the contact would become nearly
 //! as wide as a sphere, no model of small strain is valid, and every model rejects the scene.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use fem_case::Scene;
 use fem_collision::{Approach, OutputRequest, POST_CONTACT_FRACTION};
@@ -13,7 +13,7 @@ use fem_laws::{Impact, LawError, StaticHertz};
 
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, duration_of, expected_duration};
-use crate::estimate::quasi_static::{predicted_impact, ting_of};
+use crate::estimate::quasi_static::ting_of;
 use crate::rejection::Rejection;
 
 /// Loss of the moduli during the contact above which viscosity stops the bodies.
@@ -121,7 +121,8 @@ fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
 }
 
 /// Returns Ting's impact of strongly relaxing bodies; `None` for others.
-fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Rc<Impact>, LawError>> {
-    let speed = estimate.hertz.approach_speed();
-    relaxes(scene, estimate).then(|| predicted_impact(scene, estimate, speed))
+fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Arc<Impact>, LawError>> {
+    let Estimate { hertz, impacts, .. } = estimate;
+    let impact = || impacts.on_half_spaces(scene, hertz.pair(), hertz.approach_speed());
+    relaxes(scene, estimate).then(impact)
 }

@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{self, EFFECTS, Effect, PlasticFlow, Support};
-use crate::estimate::Estimate;
-use crate::estimate::viscous_flow;
+use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, viscous_flow};
 use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
 use crate::quantity_errors::{QuantityErrors, tolerance_of};
 use crate::rejection::Rejection;
@@ -27,31 +27,31 @@ impl Method for AutoMethod {
         "auto"
     }
 
-    fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        let chosen = with_chosen_model(scene)?;
-        method_of(&chosen).build(&chosen, shared)
+    fn build(&self, regime: &Regime, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        let chosen = with_chosen_model(regime)?;
+        method_of(&chosen.scene).build(&chosen, shared)
     }
 
     fn support(&self, _: &dyn Effect, _: &Scene, _: &Estimate) -> Option<Support> {
         None
     }
 
-    fn expected(&self, scene: &Scene) -> Result<ExpectedRun, Rejection> {
-        let chosen = with_chosen_model(scene)?;
-        method_of(&chosen).expected(&chosen)
+    fn expected(&self, regime: &Regime) -> Result<ExpectedRun, Rejection> {
+        let chosen = with_chosen_model(regime)?;
+        method_of(&chosen.scene).expected(&chosen)
     }
 
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let chosen = with_chosen_model(scene)?;
-        method_of(&chosen).resolve(&chosen, file)
+    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+        let chosen = with_chosen_model(regime)?;
+        method_of(&chosen.scene).resolve(&chosen, file)
     }
 }
 
 /// Returns a scene that leaves its model open with the chosen model.
-fn with_chosen_model(scene: &Scene) -> Result<Scene, Rejection> {
-    match scene.model() {
-        ModelChoice::Auto => Ok(SelectedModel::of(scene)?.scene),
-        _ => Err(Rejection::chose_another(scene, "auto")),
+fn with_chosen_model(regime: &Regime) -> Result<Regime, Rejection> {
+    match regime.scene.model() {
+        ModelChoice::Auto => Ok(SelectedModel::of(regime.clone())?.regime),
+        _ => Err(Rejection::chose_another(&regime.scene, "auto")),
     }
 }
 
@@ -93,7 +93,7 @@ pub struct ModelCandidate {
 #[derive(Clone, Debug)]
 pub struct SelectedModel {
     /// The scene with the chosen model.
-    pub scene: Scene,
+    pub regime: Regime,
     /// All models, from the cheapest to the most expensive; empty if the case names its own.
     pub considered: Vec<ModelCandidate>,
     /// A warning if no model is suitable.
@@ -104,29 +104,29 @@ impl SelectedModel {
     /// Chooses the model if the case leaves it open.
     ///
     /// # Errors
-    /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
-    pub fn of(scene: &Scene) -> Result<Self, Rejection> {
+    /// A scene whose bodies flow into each other.
+    pub fn of(regime: Regime) -> Result<Self, Rejection> {
+        let Regime { scene, estimate } = &regime;
         if *scene.model() != ModelChoice::Auto {
-            return Ok(Self { scene: scene.clone(), considered: Vec::new(), warning: None });
+            return Ok(Self { regime, considered: Vec::new(), warning: None });
         }
-        let estimate = Estimate::checked(scene)?;
-        viscous_flow::check(scene, &estimate)?;
-        let flows = PlasticFlow::is_on(scene, &estimate);
+        viscous_flow::check(scene, estimate)?;
+        let flows = PlasticFlow::is_on(scene, estimate);
         let candidates = if flows { &CANDIDATES[..] } else { &CANDIDATES[..FLOWING] };
         let mut judged: Vec<CandidateVerdict> =
-            candidates.iter().map(|candidate| candidate.judge(scene, &estimate)).collect();
-        let (serves, best) = loop {
+            candidates.iter().map(|candidate| candidate.judge(scene, estimate)).collect();
+        let (serves, best, chosen) = loop {
             let serves = judged.iter().position(|judged| judged.rejection_reason.is_none());
             let best = serves.unwrap_or_else(|| closest(&judged));
-            let chosen = scene.clone().with_model((candidates[best].choice)());
-            let method = method_of(&chosen);
+            let chosen = regime.variant(scene.clone().with_model((candidates[best].choice)()))?;
+            let method = method_of(&chosen.scene);
             match method.check(&chosen).and_then(|()| method.expected(&chosen)) {
                 // The next one may compute what this one would stop at or reject.
                 Err(rejection) if judged[best].is_possible => {
                     judged[best].is_possible = false;
                     judged[best].rejection_reason = Some(rejection.message);
                 }
-                _ => break (serves, best),
+                _ => break (serves, best, chosen),
             }
         };
         let CandidateVerdict { n_unknown, excess, .. } = judged[best];
@@ -144,7 +144,6 @@ impl SelectedModel {
                 },
             })
             .collect();
-        let scene = scene.clone().with_model((candidates[best].choice)());
         let warning = serves.is_none().then(|| {
             let error = match n_unknown == 0 && excess.is_finite() {
                 true => format!("with an expected error of {excess:.1} times the tolerance"),
@@ -153,7 +152,7 @@ impl SelectedModel {
             let model = considered[best].model;
             format!("no model is known to be within the tolerance of the case: {model} comes closest, {error}")
         });
-        Ok(Self { scene, considered, warning })
+        Ok(Self { regime: chosen, considered, warning })
     }
 }
 

@@ -3,6 +3,7 @@
 //! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. [`METHODS`](crate::METHODS)
 //! lists all methods.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -13,6 +14,7 @@ use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, EffectDecisions, Support};
 use crate::estimate::Estimate;
+use crate::estimate::regime::Regime;
 use crate::models::stepper::{RestartState, SingleStep, Stepper};
 use crate::plan::Plan;
 use crate::plan::contact_method::ContactNoiseAdvice;
@@ -24,11 +26,11 @@ pub trait Method: Sync {
     /// Returns the method's key under `[model]`.
     fn name(&self) -> &'static str;
 
-    /// Makes the model of a scene.
+    /// Makes the model of a scene in its regime.
     ///
     /// # Errors
     /// A scene that the method cannot compute, or not within the scene's limits.
-    fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection>;
+    fn build(&self, regime: &Regime, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection>;
 
     /// Returns the method's support for an effect as far as it is known before the model is built: the answer of
     /// [`Model::support`] but for the numbers of the meshes. `None` means that the method has no use for the effect.
@@ -38,7 +40,7 @@ pub trait Method: Sync {
     ///
     /// # Errors
     /// A scene whose collision the method would stop.
-    fn check(&self, _: &Scene) -> Result<(), Rejection> {
+    fn check(&self, _: &Regime) -> Result<(), Rejection> {
         Ok(())
     }
 
@@ -46,8 +48,8 @@ pub trait Method: Sync {
     ///
     /// # Errors
     /// As [`Method::build`], but for faults that only factors show.
-    fn expected(&self, scene: &Scene) -> Result<ExpectedRun, Rejection> {
-        let model = self.build(scene, &SharedModels::default())?;
+    fn expected(&self, regime: &Regime) -> Result<ExpectedRun, Rejection> {
+        let model = self.build(regime, &SharedModels::default())?;
         let setup = model.setup();
         let element_updates = match setup.cost {
             Cost::Steps { element_updates, .. } => element_updates,
@@ -63,7 +65,7 @@ pub trait Method: Sync {
     ///
     /// # Errors
     /// As [`Method::expected`].
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection>;
+    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection>;
 }
 
 /// What is expected of a run before its factors are made.
@@ -154,8 +156,8 @@ pub trait Model: fmt::Debug + Send + Sync {
 }
 
 /// Returns the closed-form estimate of a scene at an approach speed, m/s.
-pub(super) fn estimate_at(scene: &Scene, speed: f64) -> Result<Estimate, Stop> {
-    Estimate::at(scene, speed).map_err(|error| Stop::OutOfRange(error.to_string()))
+pub(super) fn estimate_at(regime: &Regime, speed: f64) -> Result<Cow<'_, Estimate>, Stop> {
+    regime.at(speed).map_err(|error| Stop::OutOfRange(error.to_string()))
 }
 
 /// Begins a collision, in a single piece if the model has no steps.

@@ -12,6 +12,7 @@ use fem_mesh::{Side, SphereMesh};
 use crate::effects::{Effect, MirrorSymmetry, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
+use crate::estimate::regime::Regime;
 use crate::models::method::{ElementSetup, Model, ModelSetup};
 use crate::models::stepper::{RestartState, Stepper, Transformed, stopped};
 use crate::plan::{Plan, candidate_radius};
@@ -26,8 +27,8 @@ pub(super) struct Mirrored<M> {
 }
 
 /// Returns the plan of half of a scene, with the meshes, snapshots and limits of the whole.
-pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Rejection> {
-    let Plan { estimate, contact_stiffness, gap, .. } = Plan::of(half)?;
+pub(super) fn plan_of_half(whole: &Plan, half: &Regime) -> Result<Plan, Rejection> {
+    let Plan { estimate, contact_stiffness, gap, .. } = Plan::in_regime(half)?;
     let candidate_radius = candidate_radius(&estimate, whole.contact_element_size);
     let speed_share = 0.5 * whole.speed_share;
     Ok(Plan { estimate, speed_share, contact_stiffness, gap, candidate_radius, ..whole.clone() })
@@ -42,7 +43,7 @@ impl<M: Model> Mirrored<M> {
     pub fn new(half: M, scene: &Scene, plan: Plan) -> Result<Self, Rejection> {
         let image = half.meshes()[0].map(|mesh| mesh.clone().on_side(Side::Above));
         let own = half.setup().clone();
-        let estimate = plan.estimate;
+        let estimate = plan.estimate.clone();
         let decisions = decide(scene, &estimate, |effect| support(effect, &half, &estimate))?;
         let elements = own.elements.map(|elements| ElementSetup { plan, ..elements });
         let approach = approach_of(scene)?;

@@ -16,6 +16,7 @@ use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
 use crate::effects::{SimplifiedScene, Transformation};
+use crate::estimate::regime::Regime;
 use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
@@ -53,6 +54,8 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
 /// A scene as its method computes it: transformed by the effects, with the model selected.
 #[derive(Clone, Debug)]
 pub(crate) struct ComputedScene {
+    /// The scene as it is given.
+    given: Regime,
     /// The transformed scene with the selected model.
     pub selected: SelectedModel,
     transformations: Vec<(&'static str, Transformation)>,
@@ -64,46 +67,51 @@ impl ComputedScene {
     /// # Errors
     /// A scene that an effect rejects, or whose closed-form estimates are not finite.
     pub fn of(given: &Scene) -> Result<Self, Rejection> {
-        let SimplifiedScene { scene, transformations } = SimplifiedScene::of(given)?;
-        Ok(Self { selected: SelectedModel::of(&scene)?, transformations })
+        let given = Regime::of(given.clone())?;
+        let SimplifiedScene { scene, transformations } = SimplifiedScene::of(&given)?;
+        let regime = match transformations.is_empty() {
+            true => given.clone(),
+            false => given.variant(scene)?,
+        };
+        Ok(Self { selected: SelectedModel::of(regime)?, given, transformations })
     }
 
     fn method(&self) -> &'static dyn Method {
-        method_of(&self.selected.scene)
+        method_of(&self.selected.regime.scene)
     }
 
     /// Makes the model of the given scene; with gravity, the model of all contacts.
     ///
     /// # Errors
     /// A scene that the method rejects.
-    pub fn model(&self, given: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        let scene = &self.selected.scene;
-        let bond = Bond::of(given);
-        let model = Sticking::around(self.method().build(scene, shared)?, bond);
-        let model = match given.gravity() {
-            Some(gravity) => Box::new(Bouncing::new(scene, gravity, model, bond)?),
+    pub fn model(&self, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        let regime = &self.selected.regime;
+        let bond = Bond::of(&self.given.scene);
+        let model = Sticking::around(self.method().build(regime, shared)?, bond);
+        let model = match self.given.scene.gravity() {
+            Some(gravity) => Box::new(Bouncing::new(regime, gravity, model, bond)?),
             None => model,
         };
-        match self.transformations.is_empty() {
+        let transformations = self.transformations.clone();
+        match transformations.is_empty() {
             true => Ok(model),
-            false => Ok(Box::new(Simplified::new(model, given, self.transformations.clone())?)),
+            false => Ok(Box::new(Simplified::new(model, self.given.clone(), transformations)?)),
         }
     }
 
     /// Returns what is expected of a run with all contacts ([`Method::expected`]).
     pub fn expected(&self) -> Result<ExpectedRun, Rejection> {
-        let scene = &self.selected.scene;
-        let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
-        let of_contact = self.method().expected(scene)?;
+        let gravity = self.given.scene.gravity();
+        let contacts = gravity.map_or(1, |gravity| gravity.bounces as u64);
+        let of_contact = self.method().expected(&self.selected.regime)?;
         let element_updates = of_contact.element_updates.saturating_mul(contacts);
         Ok(ExpectedRun { element_updates, ..of_contact })
     }
 
     /// Returns the case as written with every default of its method filled in.
     pub fn resolve(&self, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let scene = &self.selected.scene;
-        let mut file = self.method().resolve(scene, file)?;
-        if let Some(gravity) = scene.gravity() {
+        let mut file = self.method().resolve(&self.selected.regime, file)?;
+        if let Some(gravity) = self.given.scene.gravity() {
             let bounces = Quantity::from_si(gravity.bounces as f64);
             file.stop = Some(StopTable { bounces: Some(bounces) });
         }
@@ -116,7 +124,7 @@ impl ComputedScene {
 /// # Errors
 /// A scene that an effect or the method rejects.
 pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-    ComputedScene::of(scene)?.model(scene, shared)
+    ComputedScene::of(scene)?.model(shared)
 }
 
 /// Returns the model that computes a scene: the selected one, if the case leaves it open.
@@ -125,7 +133,7 @@ pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, 
 /// A scene that an effect rejects, or whose closed-form estimates are not finite.
 pub fn selected_model(scene: &Scene) -> Result<ModelChoice, Rejection> {
     match scene.model() {
-        ModelChoice::Auto => Ok(ComputedScene::of(scene)?.selected.scene.model().clone()),
+        ModelChoice::Auto => Ok(ComputedScene::of(scene)?.selected.regime.scene.model().clone()),
         named => Ok(named.clone()),
     }
 }

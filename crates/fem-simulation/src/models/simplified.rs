@@ -1,12 +1,12 @@
 //! The model of a scene that effects have transformed: the collision is that of the transformed scene, and decisions and
 //! warnings belong to the given scene.
 
-use fem_case::Scene;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, Support, Transformation, decide};
 use crate::estimate::Estimate;
+use crate::estimate::regime::Regime;
 use crate::models::method::{Model, ModelSetup};
 use crate::models::stepper::{RestartState, Stepper};
 use crate::rejection::Rejection;
@@ -16,7 +16,7 @@ use crate::rejection::Rejection;
 pub(super) struct Simplified {
     model: Box<dyn Model>,
     setup: ModelSetup,
-    given: Scene,
+    given: Regime,
     transformations: Vec<(&'static str, Transformation)>,
 }
 
@@ -27,15 +27,13 @@ impl Simplified {
     /// A switch of an effect that the model cannot obey.
     pub fn new(
         model: Box<dyn Model>,
-        given: &Scene,
+        given: Regime,
         transformations: Vec<(&'static str, Transformation)>,
     ) -> Result<Self, Rejection> {
-        let own = model.setup().clone();
-        let estimate = Estimate::checked(given)?;
-        let setup = ModelSetup { estimate, ..own };
-        let mut made = Self { model, setup, given: given.clone(), transformations };
-        let estimate = &made.setup.estimate;
-        made.setup.decisions = decide(given, estimate, |effect| made.support(effect, estimate))?;
+        let setup = ModelSetup { estimate: given.estimate.clone(), ..model.setup().clone() };
+        let mut made = Self { model, setup, given, transformations };
+        let Regime { scene, estimate } = &made.given;
+        made.setup.decisions = decide(scene, estimate, |effect| made.support(effect, estimate))?;
         Ok(made)
     }
 }
@@ -49,7 +47,7 @@ impl Model for Simplified {
         let of_model = self.model.support(effect, estimate);
         let own = self.transformations.iter().find(|(name, _)| *name == effect.name());
         let Some((_, transformation)) = own else { return of_model };
-        let relevance = effect.relevance(&self.given, estimate).unwrap_or_default();
+        let relevance = effect.relevance(&self.given.scene, estimate).unwrap_or_default();
         transformation.support(of_model, &relevance.number)
     }
 

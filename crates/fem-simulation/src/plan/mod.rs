@@ -25,8 +25,8 @@ use fem_collision::{
 use fem_laws::ImpactQuantities;
 
 use crate::effects::{PlateBending, percent};
-use crate::estimate::Estimate;
-use crate::estimate::viscous_flow;
+use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, viscous_flow};
 use crate::plan::body_source::meshed;
 use crate::plan::contact_method::{contact_method, default_penalty_factor};
 use crate::plan::element_size::{MeshRule, touches_at_nodes};
@@ -113,14 +113,22 @@ impl Plan {
     /// # Errors
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
     pub fn of(scene: &Scene) -> Result<Self, Rejection> {
-        let estimate = Estimate::checked(scene)?;
-        viscous_flow::check(scene, &estimate)?;
+        Self::in_regime(&Regime::of(scene.clone())?)
+    }
+
+    /// Returns the plan of a scene in its regime.
+    ///
+    /// # Errors
+    /// A scene whose bodies flow into each other.
+    pub(crate) fn in_regime(regime: &Regime) -> Result<Self, Rejection> {
+        let Regime { scene, estimate } = regime;
+        viscous_flow::check(scene, estimate)?;
         PlateBending::check(scene)?;
         let finer_body = finer_body(scene);
-        let rule = MeshRule::of(scene, &estimate, finer_body.is_some());
+        let rule = MeshRule::of(scene, estimate, finer_body.is_some());
         let is_shared = touches_at_nodes(scene.model());
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or_else(|| {
-            let length = (divided_radius(&estimate) / rule.across)
+            let length = (divided_radius(estimate) / rule.across)
                 .min(estimate.smallest_radius / (12.0 * scene.refinement()));
             if is_shared { shared_length(length, estimate.smallest_radius) } else { length }
         });
@@ -132,9 +140,9 @@ impl Plan {
             };
             radius.min(estimate.smallest_radius)
         });
-        let candidate_radius = candidate_radius(&estimate, contact_element_size);
+        let candidate_radius = candidate_radius(estimate, contact_element_size);
         let penalty_factor =
-            scene.penalty_factor().unwrap_or_else(|| default_penalty_factor(&estimate));
+            scene.penalty_factor().unwrap_or_else(|| default_penalty_factor(estimate));
         let contact_stiffness =
             penalty_factor * PENALTY_OVER_MODULUS * estimate.hertz.pair().contact_modulus();
         let per_area = contact_stiffness / contact_element_size;
@@ -147,7 +155,7 @@ impl Plan {
             ));
         }
         let makes_meshes = scene.bodies().iter().any(is_generated);
-        let far_radius = far_radius(&meshed(scene), &estimate, refined_radius, candidate_radius);
+        let far_radius = far_radius(&meshed(scene), estimate, refined_radius, candidate_radius);
         let mut warnings = unread_keys(scene, makes_meshes, far_radius.is_some());
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
         let out_of_reach = rule.error_on_finest_mesh.filter(|_| is_chosen);
@@ -186,10 +194,10 @@ impl Plan {
             snapshots: request(scene.snapshots(), estimate.flow),
             max_elements: limits.elements.unwrap_or(defaults::MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(defaults::MAX_ELEMENT_UPDATES),
-            max_contact_times: viscous_flow::max_contact_times(scene, &estimate),
+            max_contact_times: viscous_flow::max_contact_times(scene, estimate),
             max_memory: limits.memory.unwrap_or(defaults::MAX_MEMORY),
             warnings,
-            estimate,
+            estimate: estimate.clone(),
         })
     }
 

@@ -25,6 +25,7 @@ use crate::error::{
     unresolved_warning, widest_contact,
 };
 use crate::estimate::mach;
+use crate::estimate::regime::Regime;
 use crate::models::method::{Cost, ElementSetup};
 use crate::models::{ModelCandidate, SelectedModel};
 use crate::plan::Plan;
@@ -116,7 +117,9 @@ impl Simulation {
         if seconds < SECONDS_OF_LONG_RUN || *scene.model() != ModelChoice::Fem {
             return None;
         }
-        let open = SelectedModel::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
+        let scene = scene.clone().with_model(ModelChoice::Auto);
+        let estimate = self.setup().estimate.clone();
+        let open = SelectedModel::of(Regime { scene, estimate }).ok()?;
         // Condensed bodies have fields to draw, as explicit elements do.
         let serves = |it: &&ModelCandidate| {
             it.model.starts_with("condensed")

@@ -22,7 +22,7 @@ use super::relaxation_band::variants;
 use super::summary::Quantities;
 use crate::effects::{PartnerWaves, SimplifiedScene};
 use crate::estimate::Estimate;
-use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::estimate::quasi_static::ting_of;
 use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
 use crate::simulation::Simulation;
@@ -44,8 +44,10 @@ pub(super) fn input_uncertainty(
     if inputs.is_empty() && !bodies.iter().any(has_band) {
         return None;
     }
-    let own = impact_of(case.scene())?;
-    let from_own = |case: &Case| Some(impact_of(case.scene())?.change_from(&own).to_vec());
+    let estimate = &simulation.setup().estimate;
+    let own = impact_of(case.scene(), estimate)?;
+    let from_own =
+        |case: &Case| Some(impact_of(case.scene(), estimate)?.change_from(&own).to_vec());
     // Unknown changes are no numbers.
     let change = |input| case.change_by(input, from_own).unwrap_or_else(|| vec![f64::NAN; 6]);
     let mut changes: Vec<Vec<f64>> = inputs.iter().map(change).collect();
@@ -66,15 +68,15 @@ pub(super) fn input_uncertainty(
     Some(errors.checked())
 }
 
-/// Returns the closed-form impact of a scene.
-fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
+/// Returns the closed-form impact of a variant of an estimated scene.
+fn impact_of(scene: &Scene, estimate: &Estimate) -> Option<ImpactQuantities> {
     let speed = scene.approach_speed();
     if matches!(scene.model(), ModelChoice::Law { .. }) {
         return Some(quantities(&Reduced::new(scene).ok()?.impact(speed).ok()?));
     }
-    let scene = SimplifiedScene::quiet(scene)?;
+    let scene = SimplifiedScene::quiet(scene, estimate)?;
     let pair = scene.pair().ok()?;
-    let estimate = Estimate::at(&scene, speed).ok()?;
+    let estimate = estimate.of_variant(&scene, speed).ok()?;
     let kept = share_beside_waves(&scene, &estimate);
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     let has_plate = scene.bodies().iter().any(|body| body.plate().is_some());
@@ -84,7 +86,7 @@ fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
         ImpactQuantities::from(&HertzImpact::new(&pair, speed).ok()?)
     } else {
         let ting = ting_of(&scene, &pair, true, None).ok()?.with_coarse_waves();
-        quantities(&*known_impact(ting.with_tolerance(TOLERANCE).ok()?, speed).ok()?)
+        quantities(&*estimate.impacts.impact(ting.with_tolerance(TOLERANCE).ok()?, speed).ok()?)
     };
     Some(ImpactQuantities { restitution: kept * impact.restitution, ..impact })
 }

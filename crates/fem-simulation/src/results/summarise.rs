@@ -75,7 +75,7 @@ impl Summary {
             stress_error: errors.stress_error,
             measured_restitution: measured_restitution(simulation, collision),
             contact_episodes: collision.contact_episodes,
-            hertz: hertz(simulation.estimate(collision), &mut numbers),
+            hertz: hertz(simulation.estimate(&collision.approach), &mut numbers),
             energy: energy(simulation, collision, &mut numbers),
             momentum_residual_relative: numbers
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
@@ -120,7 +120,7 @@ fn measured_restitution(
     simulation: &Simulation,
     collision: &Collision,
 ) -> Option<Vec<MeasuredSummary>> {
-    let speed = simulation.estimate(collision)?.hertz.approach_speed();
+    let speed = simulation.estimate(&collision.approach)?.hertz.approach_speed();
     let measured = simulation.case().scene().measured_restitutions().iter();
     Some(measured.map(|it| MeasuredSummary::at(speed, it)).collect::<Vec<_>>())
         .filter(|all| !all.is_empty())
@@ -142,7 +142,7 @@ fn effects(
     collision: &Collision,
     decisions: &EffectDecisions,
 ) -> Vec<EffectSummary> {
-    let estimate = simulation.estimate(collision);
+    let estimate = simulation.estimate(&collision.approach);
     let summary = |decision: &EffectDecision| {
         let neglect_error =
             estimate.as_ref().and_then(|estimate| simulation.neglect_error(decision, estimate));
@@ -305,7 +305,7 @@ fn adhesion(
     numbers: &mut Numbers,
 ) -> Option<AdhesionSummary> {
     let adhesion = AdhesionEffect::given(simulation.case().scene())?;
-    let speed = simulation.estimate(collision)?.hertz.approach_speed();
+    let speed = simulation.estimate(&collision.approach)?.hertz.approach_speed();
     let mut number = |key: &str, value| numbers.finite(&format!("adhesion.{key}"), value);
     Some(AdhesionSummary {
         sticking_speed_m_s: number("sticking_speed_m_s", adhesion.sticking_speed()),
@@ -321,7 +321,7 @@ fn plate(
     collision: &Collision,
     numbers: &mut Numbers,
 ) -> Option<PlateSummary> {
-    let estimate = simulation.estimate(collision)?;
+    let estimate = simulation.estimate(&collision.approach)?;
     let plate = PlateImpact::of(simulation.case().scene(), &estimate)?;
     let mut number = |key: &str, value| numbers.finite(&format!("plate.{key}"), value);
     let edge = Some(plate.edge_return).filter(|time| time.is_finite());

@@ -51,7 +51,7 @@ fn model_form_errors(
     effects: &[EffectSummary],
 ) -> Vec<(&'static dyn Effect, QuantityErrors)> {
     let all = || effects.iter().filter_map(|it| Some((effect_named(it.decision.name)?, it)));
-    let Some(estimate) = simulation.estimate(collision) else {
+    let Some(estimate) = simulation.estimate(&collision.approach) else {
         return all().map(|(effect, _)| (effect, QuantityErrors::default())).collect();
     };
     let estimate = estimate.with_computed(collision);

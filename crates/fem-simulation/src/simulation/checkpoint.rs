@@ -68,7 +68,7 @@ pub enum CheckpointError {
 /// # file.mesh =
 /// #     Some(MeshTable { contact_element_size: Some("0.2 mm".into()), ..Default::default() });
 /// # let simulation = Simulation::new(Case::of(file)?)?;
-/// let run = Identity::of(simulation.case())?;
+/// let run = simulation.identity()?;
 /// let mut stepper = simulation.start();
 /// stepper.advance(&mut ());
 /// let state = stepper.restart_state().ok_or("a model without restart states")?;

@@ -38,6 +38,21 @@ impl Identity {
     }
 }
 
+impl Simulation {
+    /// Returns the identity of the run of the case.
+    ///
+    /// # Errors
+    /// A mesh file that cannot be read.
+    pub fn identity(&self) -> Result<Identity, CaseError> {
+        // It is that of the mesh before any refinement.
+        if !self.levels().is_empty() {
+            return Identity::of(self.case());
+        }
+        let result = of_result(NUMERICS, self.resolved(), &mesh_files(self.case())?);
+        Ok(Identity { case: case_identity(self.case()), result: name_of(result) })
+    }
+}
+
 /// Returns the digest of a case's result with this build, and the resolved case.
 ///
 /// # Errors

@@ -71,7 +71,7 @@ impl Simulation {
         let scene = case.scene().clone().with_refinement(refinement);
         let of_case = |rejection: Rejection| rejection.in_case(&case);
         let computed = ComputedScene::of(&scene).map_err(of_case)?;
-        let model: Arc<dyn Model> = Arc::from(computed.model(&scene, shared).map_err(of_case)?);
+        let model: Arc<dyn Model> = Arc::from(computed.model(shared).map_err(of_case)?);
         let resolved = computed.resolve(case.file().clone()).map_err(of_case)?;
         let mut request = model.setup().request.clone();
         request.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
@@ -278,12 +278,12 @@ impl Simulation {
         self.model.resume(state).map_err(|rejection| rejection.in_case(&self.case))
     }
 
-    /// Returns the closed-form estimate for a collision of the case's bodies; `None` if it is not finite.
-    pub fn estimate(&self, collision: &Collision) -> Option<Estimate> {
+    /// Returns the closed-form estimate for an approach of the case's bodies; `None` if it is not finite.
+    pub fn estimate(&self, approach: &Approach) -> Option<Estimate> {
         let setup = self.setup();
-        match collision.approach == setup.approach {
-            true => Some(setup.estimate),
-            false => Estimate::at(self.case.scene(), collision.approach.speed()).ok(),
+        match *approach == setup.approach {
+            true => Some(setup.estimate.clone()),
+            false => setup.estimate.of_variant(&self.scene_of_model(), approach.speed()).ok(),
         }
     }
 
@@ -301,7 +301,7 @@ impl Simulation {
         let scene = self.case.scene();
         match scene.model() {
             ModelChoice::Auto => {
-                Cow::Owned(scene.clone().with_model(self.selected.scene.model().clone()))
+                Cow::Owned(scene.clone().with_model(self.selected.regime.scene.model().clone()))
             }
             _ => Cow::Borrowed(scene),
         }
@@ -310,7 +310,7 @@ impl Simulation {
     /// Returns the effects that were on in a collision of the case's bodies, with reasons and warnings.
     pub fn decisions(&self, collision: &Collision) -> EffectDecisions {
         let (setup, scene) = (self.setup(), self.scene_of_model());
-        let estimate = self.estimate(collision);
+        let estimate = self.estimate(&collision.approach);
         let anew = estimate.as_ref().filter(|_| collision.approach != setup.approach);
         let decided = anew.and_then(|estimate| {
             let support = |effect: &dyn Effect| self.model.support(effect, estimate);

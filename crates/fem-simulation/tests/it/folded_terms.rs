@@ -2,7 +2,7 @@
 
 use fem_collision::{Collision, QuantityOfInterest};
 use fem_simulation::effects::{EFFECTS, Support};
-use fem_simulation::{SharedModels, Simulation, Summary, method_of};
+use fem_simulation::{Regime, SharedModels, Simulation, Summary, method_of};
 
 use crate::scene::{decision_on, simulation_of as simulation, summary_of};
 
@@ -211,7 +211,8 @@ fn no_transformation_replaces_the_support_of_a_model() {
             let transformed: Vec<_> = EFFECTS.iter().filter(transforms).collect();
             assert!(transformed.iter().any(|effect| effect.name() == name), "{name} {model}");
             // The model of the scene as it is given.
-            let Ok(given) = method_of(scene).build(scene, &SharedModels::default()) else {
+            let regime = Regime::of(scene.clone()).unwrap();
+            let Ok(given) = method_of(scene).build(&regime, &SharedModels::default()) else {
                 continue;
             };
             for effect in transformed {

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use fem_case::schema::{LawTable, MeshTable, ModelTable};
 use fem_case::{Case, CaseError, CaseFile};
-use fem_simulation::{Explicit, METHODS, Model, ModelSetup, Plan, SharedModels, Simulation};
+use fem_simulation::{
+    Explicit, METHODS, Model, ModelSetup, Plan, Regime, SharedModels, Simulation,
+};
 
 use crate::scene::{
     ELASTIC_GLASS as GLASS, GLASS as RELAXING, case_of, decision_on, refused_of, simulation_of,
@@ -201,7 +203,8 @@ fn a_method_refuses_a_scene_of_another_model() {
         let case = case_of(RELAXING, &set);
         let scene = case.scene();
         for method in METHODS {
-            let made = method.build(scene, &SharedModels::default());
+            let regime = Regime::of(scene.clone()).unwrap();
+            let made = method.build(&regime, &SharedModels::default());
             if method.name() == scene.model().name() {
                 made.unwrap();
             } else {

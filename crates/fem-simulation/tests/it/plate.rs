@@ -377,7 +377,7 @@ fn the_estimate_of_bodies_that_flow_has_their_plate() {
     };
     for metres in [3e-3, 5e-3] {
         let set = set(metres, 3.0);
-        let estimate = simulation_of(BALL, &set).setup().estimate;
+        let estimate = simulation_of(BALL, &set).setup().estimate.clone();
         let flow = estimate.flow.unwrap();
         let law = [set.to_vec(), vec!["model={ law={ mean_pressure={} } }".to_string()]].concat();
         let summary = summary_of(BALL, &law);

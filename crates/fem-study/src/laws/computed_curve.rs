@@ -28,6 +28,8 @@ impl ImpactCurve {
         as_elastic: bool,
     ) -> Result<Self, LawFault> {
         let scene = case.scene();
+        // No closed form has the base of a bonded plate.
+        plate_of(scene)?;
         let (own, decade) = (scene.approach_speed(), 10f64.sqrt());
         let range = speeds.unwrap_or((own / decade, own * decade));
         let impacts = ComputedImpacts { case, reduced: reduced(case) };

@@ -242,7 +242,9 @@ fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
 fn waves(theirs: &Ran) -> [f64; 3] {
     let decisions = theirs.decisions();
     let waves = decisions.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
-    let Some(estimate) = theirs.simulation.estimate(&theirs.collision) else { return [0.0; 3] };
+    let Some(estimate) = theirs.simulation.estimate(&theirs.collision.approach) else {
+        return [0.0; 3];
+    };
     let effect = waves.and_then(|waves| theirs.simulation.neglect_error(waves, &estimate));
     let effect =
         effect.map_or([0.0; 3], |effect| shares(&effect, &estimate).map(Option::unwrap_or_default));
@@ -263,7 +265,7 @@ fn shares(neglect_error: &NeglectError, estimate: &Estimate) -> [Option<f64>; 3]
 fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (has, lacks) in [(ours, theirs), (theirs, ours)] {
-        let Some(estimate) = has.simulation.estimate(&has.collision) else { continue };
+        let Some(estimate) = has.simulation.estimate(&has.collision.approach) else { continue };
         let lacking = lacks.decisions();
         let is_lacking = |name: &str| !lacking.iter().any(|one| one.name == name && one.active);
         for decision in has.decisions().iter().filter(|one| one.active && is_lacking(one.name)) {

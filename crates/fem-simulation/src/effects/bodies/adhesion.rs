@@ -30,8 +30,7 @@ impl Effect for AdhesionEffect {
         let (adhesion, work) = (adhesion_of(scene)?, scene.work_of_adhesion());
         let (speed, sticking) = (estimate.hertz.approach_speed(), adhesion.sticking_speed());
         let (shown, below) = (show(work.value(), "J/m^2"), show(sticking, "m/s"));
-        let loss =
-            loss_above(scene, &largest(scene, &adhesion), speed, scene.accuracy().restitution);
+        let loss = loss_above(scene, &largest(scene, &adhesion), estimate);
         let sticks = speed < sticking;
         let lost = format!(
             "{} {} of the restitution",
@@ -163,7 +162,7 @@ impl Effect for AdhesionEffect {
         let errors = NeglectError::errors_of(estimate, changes);
         let share = (adhesion.sticking_speed() / speed).powi(2);
         let open = match is_open(shares(scene, &adhesion, speed)) {
-            true => restitution_without(scene, speed),
+            true => restitution_without(scene, estimate),
             false if share > 1.0 => 0.0,
             false => return errors,
         };
@@ -225,32 +224,32 @@ fn adhesion_of(scene: &Scene) -> Option<Adhesion> {
 
 /// Returns the change of the quantities by adhesion in the order of a summary, that of the restitution absolute.
 fn changes(scene: &Scene, adhesion: &Adhesion, estimate: &Estimate) -> [f64; 6] {
-    let speed = estimate.hertz.approach_speed();
     if adhesion.work_of_adhesion() == 0.0 {
         return [0.0; 6];
     }
     let [_, others @ ..] = adhesion.change(&estimate.hertz);
-    let mut changes = [loss(scene, adhesion, speed); 6];
+    let mut changes = [loss(scene, adhesion, estimate); 6];
     changes[1..].copy_from_slice(&others);
     changes
 }
 
-/// Returns the loss of restitution by adhesion if it is above a tolerance.
-fn loss_above(scene: &Scene, adhesion: &Adhesion, speed: f64, tolerance: f64) -> Option<f64> {
+/// Returns the loss of restitution by adhesion if it is above the tolerance of the case.
+fn loss_above(scene: &Scene, adhesion: &Adhesion, estimate: &Estimate) -> Option<f64> {
+    let tolerance = scene.accuracy().restitution;
     // No restitution loses more than that; the one without adhesion takes milliseconds.
-    let is_possible = adhesion.sticking_speed() / speed > tolerance;
-    is_possible.then(|| loss(scene, adhesion, speed)).filter(|loss| *loss > tolerance)
+    let is_possible = adhesion.sticking_speed() / estimate.hertz.approach_speed() > tolerance;
+    is_possible.then(|| loss(scene, adhesion, estimate)).filter(|loss| *loss > tolerance)
 }
 
 /// Returns the loss of restitution by adhesion.
-fn loss(scene: &Scene, adhesion: &Adhesion, speed: f64) -> f64 {
-    let without = restitution_without(scene, speed);
-    without - adhesion.restitution(speed, without)
+fn loss(scene: &Scene, adhesion: &Adhesion, estimate: &Estimate) -> f64 {
+    let without = restitution_without(scene, estimate);
+    without - adhesion.restitution(estimate.hertz.approach_speed(), without)
 }
 
 /// Returns the restitution without adhesion by Ting's prediction; 1 if it has none.
-fn restitution_without(scene: &Scene, speed: f64) -> f64 {
-    let computed = SimplifiedScene::quiet(scene);
-    let prediction = computed.and_then(|scene| TingPrediction::of(&scene, speed, false).ok());
+fn restitution_without(scene: &Scene, estimate: &Estimate) -> f64 {
+    let computed = SimplifiedScene::quiet(scene, estimate);
+    let prediction = computed.and_then(|scene| TingPrediction::of(&scene, estimate, false).ok());
     prediction.map_or(1.0, |prediction| prediction.restitution)
 }

@@ -66,9 +66,8 @@ impl FiniteSizeEffect {
             let restitution = Some(change * relaxed_loss(scene, estimate));
             return Some(NeglectError { restitution, ..by_size });
         }
-        let speed = estimate.hertz.approach_speed();
-        let thin = TingPrediction::of(scene, speed, false).ok()?;
-        let by_thickness = TingPrediction::on_thick_plate(scene, speed).ok()?.change_from(&thin);
+        let thin = TingPrediction::of(scene, estimate, false).ok()?;
+        let by_thickness = TingPrediction::on_thick_plate(scene, estimate).ok()?.change_from(&thin);
         let restitution = Some(change * (1.0 - thin.restitution));
         Some(NeglectError { restitution, ..by_size }.plus(&by_thickness))
     }
@@ -92,10 +91,9 @@ impl FiniteSizeEffect {
 
 impl Effect for FiniteSizeEffect {
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let scene = SimplifiedScene::quiet(scene)?;
-        let speed = estimate.hertz.approach_speed();
+        let scene = SimplifiedScene::quiet(scene, estimate)?;
         let [with, without] =
-            [true, false].map(|size| TingPrediction::of(&scene, speed, size).ok());
+            [true, false].map(|size| TingPrediction::of(&scene, estimate, size).ok());
         match with.zip(without) {
             Some((with, without)) => Some(with.change_from(&without)),
             None => Self::by_stiffness(&scene, estimate),

@@ -193,16 +193,15 @@ impl Effect for PartnerWaves {
     /// correction, it is the loss of restitution by a half-space.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
-        let with = SimplifiedScene::quiet(&self.switched(scene, switch))?;
+        let with = SimplifiedScene::quiet(&self.switched(scene, switch), estimate)?;
         let without = self.switched(&with, Some(Switch::Off));
-        let speed = estimate.hertz.approach_speed();
-        let estimate = Estimate::at(&with, speed).ok()?;
+        let estimate = estimate.of_variant(&with, estimate.hertz.approach_speed()).ok()?;
         if Self::radiating(&with, &estimate) != [None, None] {
             // A model without the term has the error of a model with it.
             let is_term = Self::radiating_at_rest(&with, &estimate) != [None, None];
             let whole = with.clone().with_model(ModelChoice::Fem);
             let own = if is_term { &with } else { &whole };
-            let impacts = [own, &without].map(|scene| TingPrediction::of(scene, speed, false));
+            let impacts = [own, &without].map(|scene| TingPrediction::of(scene, &estimate, false));
             if let [Ok(one), Ok(without)] = impacts {
                 let missing = missing_of_term(&crossed(&with, &estimate), &estimate);
                 let change = one.change_from(&without);

@@ -63,17 +63,16 @@ impl PlateBending {
 
     /// Returns the difference between Ting's impacts on the plate without an edge and on a half-space.
     fn change_by_bending(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let speed = estimate.hertz.approach_speed();
         let side = scene.bodies().iter().position(|body| body.plate().is_some())?;
         let bent = PlateBending.switched(scene, Some(Switch::On));
         let half_space = PlateBending.switched(&bent.with_half_space(side), None);
-        let sized = [&bent, &half_space].map(|scene| TingPrediction::of(scene, speed, true));
+        let sized = [&bent, &half_space].map(|scene| TingPrediction::of(scene, estimate, true));
         let [bent, half_space] = match sized {
             [Ok(bent), Ok(half_space)] => [bent, half_space],
             // A contact too wide for the first order of the spheres' size.
             _ => [
-                TingPrediction::on_thick_plate(&bent, speed).ok()?,
-                TingPrediction::of(&half_space, speed, false).ok()?,
+                TingPrediction::on_thick_plate(&bent, estimate).ok()?,
+                TingPrediction::of(&half_space, estimate, false).ok()?,
             ],
         };
         Some(bent.change_from(&half_space))

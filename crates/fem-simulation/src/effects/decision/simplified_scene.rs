@@ -5,6 +5,7 @@ use fem_case::Scene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{EFFECTS, effect_named};
 use crate::estimate::Estimate;
+use crate::estimate::regime::Regime;
 use crate::rejection::Rejection;
 
 /// A scene transformed by one effect.
@@ -57,13 +58,12 @@ impl SimplifiedScene {
     /// Transforms a given scene.
     ///
     /// # Errors
-    /// A switch that the scene's bodies do not allow; a scene whose closed-form estimates are not
-    /// finite.
-    pub fn of(given: &Scene) -> Result<Self, Rejection> {
-        let estimate = Estimate::checked(given)?;
-        let mut computed = Self::without_warnings(given, &estimate)?;
+    /// A switch that the scene's bodies do not allow.
+    pub fn of(given: &Regime) -> Result<Self, Rejection> {
+        let Regime { scene: given, estimate } = given;
+        let mut computed = Self::without_warnings(given, estimate)?;
         for (name, transformation) in &mut computed.transformations {
-            let forced = effect_named(name).and_then(|effect| effect.forced(given, &estimate));
+            let forced = effect_named(name).and_then(|effect| effect.forced(given, estimate));
             if let Transformation::Decides(support) = transformation {
                 *support = support.clone().warning(forced);
             }
@@ -71,9 +71,9 @@ impl SimplifiedScene {
         Ok(computed)
     }
 
-    /// Returns the transformed scene for closed forms, or `None` if a switch is not possible.
-    pub fn quiet(given: &Scene) -> Option<Scene> {
-        let estimate = Estimate::checked(given).ok()?;
+    /// Returns the transformed variant of an estimated scene for closed forms, or `None` if a switch is not possible.
+    pub fn quiet(given: &Scene, estimate: &Estimate) -> Option<Scene> {
+        let estimate = estimate.of_variant(given, given.approach_speed()).ok()?;
         Self::without_warnings(given, &estimate).ok().map(|computed| computed.scene)
     }
 

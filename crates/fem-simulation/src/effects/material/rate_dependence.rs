@@ -69,7 +69,7 @@ impl Effect for RateDependence {
             return QuantityErrors::ZERO;
         }
         // The change is a share of the pressure of the flowing contact, a fraction of the elastic one.
-        let mut flowing = *estimate;
+        let mut flowing = estimate.clone();
         if let Some(flow) = estimate.flow {
             flowing.effective.sizes.peak_pressure = flow.peak_pressure;
         }

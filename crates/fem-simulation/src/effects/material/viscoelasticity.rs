@@ -16,7 +16,7 @@ use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
 use crate::effects::ting_prediction::{TingPrediction, change_between};
 use crate::estimate::Estimate;
-use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::estimate::quasi_static::ting_of;
 use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
@@ -104,7 +104,7 @@ impl Effect for Viscoelasticity {
             Some(folded) => elastic(&folded.scene, materials(&folded.scene)),
             None => self.switched(scene, Some(Switch::Off)),
         };
-        Some(change_between(&with, &without, estimate.hertz.approach_speed()))
+        Some(change_between(&with, &without, estimate))
     }
 
     /// A law whose damping is the slow limit of the materials differs from them where they do not relax within the contact.
@@ -126,8 +126,8 @@ impl Effect for Viscoelasticity {
 /// Returns the distances of a law's quantities from those of Ting's model of the same bodies.
 fn error_of_slow_limit(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
     let speed = estimate.hertz.approach_speed();
-    let computed = SimplifiedScene::quiet(scene)?;
-    let ting = TingPrediction::of(&computed, speed, false).ok()?;
+    let computed = SimplifiedScene::quiet(scene, estimate)?;
+    let ting = TingPrediction::of(&computed, estimate, false).ok()?;
     let own = TingPrediction::from(&Reduced::new(&computed).ok()?.impact(speed).ok()?);
     Some(own.change_from(&ting).of_all_quantities(estimate))
 }
@@ -159,7 +159,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     let hertz = &estimate.hertz;
     let ting =
         ting_of(scene, hertz.pair(), true, None).ok()?.with_tolerance(LOSS_TOLERANCE).ok()?;
-    let relaxing = known_impact(ting, hertz.approach_speed()).ok()?.restitution;
+    let relaxing = estimate.impacts.impact(ting, hertz.approach_speed()).ok()?.restitution;
     Some((relaxing - hertz.restitution()).abs())
 }
 

@@ -31,6 +31,7 @@ use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, Support};
 use crate::estimate::Estimate;
+use crate::estimate::regime::Regime;
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::method_of;
 use crate::models::stepper::{RestartState, Stepper, stopped};
@@ -59,7 +60,7 @@ pub(super) struct Bouncing {
 /// A scene with gravity, and the model of its first contact.
 #[derive(Debug)]
 struct Ball {
-    scene: Scene,
+    regime: Regime,
     gravity: Gravity,
     first: Arc<dyn Model>,
     /// The bond of ball and floor, if they stick when they are slow.
@@ -72,7 +73,7 @@ impl Bouncing {
     /// # Errors
     /// A weight that presses the bodies so flat that no contact theory holds.
     pub fn new(
-        scene: &Scene,
+        regime: &Regime,
         gravity: Gravity,
         first: Box<dyn Model>,
         bond: Option<Bond>,
@@ -82,11 +83,11 @@ impl Bouncing {
                 "a ball bounces where its weight is small; check its unit, sizes and moduli",
             ))
         };
-        let pair = first.setup().estimate.hertz.pair();
+        let pair = regime.estimate.hertz.pair();
         let weight = pair.effective_mass() * gravity.acceleration;
         match StaticHertz::new(pair, weight) {
             Ok(pressed) if pressed.contact_radius <= MAX_DENT * pair.effective_radius() => {
-                let ball = Ball { scene: scene.clone(), gravity, first: Arc::from(first), bond };
+                let ball = Ball { regime: regime.clone(), gravity, first: Arc::from(first), bond };
                 Ok(Self { ball: Arc::new(ball) })
             }
             Ok(pressed) => reject(format!(
@@ -107,8 +108,8 @@ impl Ball {
     /// Returns speed (m/s) and time (s) of first touch, and the height of the fall, m.
     fn fall(&self, approach: &Approach) -> (f64, f64, f64) {
         if *approach == self.first.setup().approach {
-            let height = self.scene.gap().unwrap_or(fem_case::defaults::GAP);
-            return (approach.speed(), self.scene.first_touch(), height);
+            let height = self.regime.scene.gap().unwrap_or(fem_case::defaults::GAP);
+            return (approach.speed(), self.regime.scene.first_touch(), height);
         }
         let acceleration = self.gravity.acceleration;
         let (speed, height) = (approach.speed(), approach.gap());
@@ -123,9 +124,9 @@ impl Ball {
         speed: f64,
     ) -> Result<Option<Box<dyn Model>>, Stop> {
         let Some(elements) = &present.setup().elements else { return Ok(None) };
-        let radius = estimate_at(&self.scene, speed)?.contact_radius;
+        let radius = estimate_at(&self.regime, speed)?.contact_radius;
         match is_made_again(
-            &self.scene,
+            &self.regime.scene,
             &elements.plan,
             elements.plan.estimate.contact_radius,
             radius,
@@ -137,10 +138,11 @@ impl Ball {
 
     /// Returns the model for a contact at a speed, m/s.
     fn made_at(&self, speed: f64) -> Result<Box<dyn Model>, Stop> {
-        let scene = self.scene.touching_at(speed);
+        let scene = self.regime.scene.touching_at(speed);
         let no_speed = || Stop::NotMade(format!("the ball comes down at {}", show(speed, "m/s")));
-        let scene = scene.ok_or_else(no_speed)?;
-        let model = method_of(&scene).build(&scene, &SharedModels::default());
+        let regime = self.regime.variant(scene.ok_or_else(no_speed)?);
+        let model = regime
+            .and_then(|regime| method_of(&regime.scene).build(&regime, &SharedModels::default()));
         let model = model.map_err(|rejection| Stop::NotMade(rejection.to_string()))?;
         Ok(Sticking::around(model, self.bond))
     }
@@ -224,7 +226,7 @@ pub(crate) fn element_sizes(
     let first = plan.estimate.contact_radius;
     let mut made_for = first;
     let of_speed = |speed: f64| {
-        let radius = estimate_at(scene, speed).ok()?.contact_radius;
+        let radius = plan.estimate.of_variant(scene, speed).ok()?.contact_radius;
         if is_made_again(scene, plan, made_for, radius) {
             made_for = radius;
         }

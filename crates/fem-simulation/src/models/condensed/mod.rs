@@ -27,6 +27,7 @@ use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::plate_impact::free_plate;
 use crate::estimate::quasi_static::surfaces_slip;
+use crate::estimate::regime::Regime;
 use crate::estimate::viscous_flow::slower;
 use crate::models::method::{
     Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels, estimate_at,
@@ -55,15 +56,18 @@ impl Method for CondensedMethod {
         "condensed"
     }
 
-    fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+    fn build(&self, regime: &Regime, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        let scene = &regime.scene;
         if !matches!(scene.model(), ModelChoice::Condensed(_)) {
             return Err(Rejection::chose_another(scene, "condensed"));
         }
-        let Some(half) = MirrorSymmetry::half_of(scene)? else {
-            return Ok(Box::new(Condensed::new(scene, shared)?));
+        let half = MirrorSymmetry::half_of(scene)?;
+        let plan = Plan::in_regime(regime)?;
+        let Some(half) = half else {
+            return Ok(Box::new(Condensed::with_plan(scene, plan, shared)?));
         };
-        let plan = Plan::of(scene)?;
-        let model = Condensed::with_plan(&half, plan_of_half(&plan, &half)?, shared)?;
+        let half = regime.variant(half)?;
+        let model = Condensed::with_plan(&half.scene, plan_of_half(&plan, &half)?, shared)?;
         Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
@@ -71,18 +75,18 @@ impl Method for CondensedMethod {
         effects::support(effect, scene, estimate, None)
     }
 
-    fn expected(&self, scene: &Scene) -> Result<ExpectedRun, Rejection> {
-        let plan = Plan::of(scene)?;
-        check_memory(&plan, &BodySource::of_scene(scene, &plan)?)?;
+    fn expected(&self, regime: &Regime) -> Result<ExpectedRun, Rejection> {
+        let plan = Plan::in_regime(regime)?;
+        check_memory(&plan, &BodySource::of_scene(&regime.scene, &plan)?)?;
         let out_of_reach = plan.out_of_reach().map(str::to_string);
         Ok(ExpectedRun { element_updates: 0, out_of_reach })
     }
 
     /// Returns the case with the defaults of the tables that the model reads.
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let options = options(scene);
+    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+        let options = options(&regime.scene);
         let (time, contact) = (file.time.clone(), file.contact.clone());
-        let mut file = Plan::of(scene)?.resolve(file);
+        let mut file = Plan::in_regime(regime)?.resolve(file);
         file.time = time;
         if !options.penalty_springs {
             file.contact = contact;
@@ -101,7 +105,7 @@ impl Method for CondensedMethod {
 #[derive(Debug)]
 pub struct Condensed {
     setup: ModelSetup,
-    scene: Scene,
+    regime: Regime,
     pair: Arc<CondensedPair>,
     /// The same bodies condensed out to other radii, for collisions that needed them.
     others: Mutex<Vec<Arc<CondensedPair>>>,
@@ -151,7 +155,7 @@ impl Condensed {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
             request: plan.request(),
-            estimate: plan.estimate,
+            estimate: plan.estimate.clone(),
             decisions,
             unread_key_warnings,
             cost: cost_of(scene, &pair, n_steps as u64),
@@ -162,7 +166,8 @@ impl Condensed {
                 plan,
             }),
         };
-        Ok(Self { setup, scene: scene.clone(), pair, others: Mutex::default(), options })
+        let regime = Regime { scene: scene.clone(), estimate: setup.estimate.clone() };
+        Ok(Self { setup, regime, pair, others: Mutex::default(), options })
     }
 
     /// Returns the warnings about the speed.
@@ -209,7 +214,7 @@ impl Condensed {
             Err(stop) => return Collision::stopped(*approach, stop),
         };
         let mut collide = |pair: &CondensedPair| {
-            let frame = frame_of(&self.scene, approach, pair.reduced_mass());
+            let frame = frame_of(&self.regime.scene, approach, pair.reduced_mass());
             match pair.collide(&frame, damping, n_steps, request, &mut *monitor) {
                 Ok(collision) => collision,
                 Err(error) => Collision {
@@ -247,10 +252,10 @@ impl Condensed {
         speed: f64,
         relaxations: [Option<&'a PronySeries>; 2],
     ) -> Result<Damping<'a>, Stop> {
-        let estimate = estimate_at(&self.scene, speed)?;
-        let radiating = PartnerWaves::radiating_at_rest(&self.scene, &estimate);
+        let estimate = estimate_at(&self.regime, speed)?;
+        let radiating = PartnerWaves::radiating_at_rest(&self.regime.scene, &estimate);
         let radiation = radiating.map(|material| Some(radiation_damping(&material?)));
-        let plate = free_plate(&self.scene);
+        let plate = free_plate(&self.regime.scene);
         let plate_mobility = plate.map(|plate| plate.mobility(&estimate.hertz));
         Ok(Damping { relaxations, radiation, plate_mobility })
     }
@@ -262,7 +267,7 @@ impl Condensed {
         if *approach == self.setup.approach {
             return Ok(self.pair.clone());
         }
-        let estimate = estimate_at(&self.scene, approach.speed())?;
+        let estimate = estimate_at(&self.regime, approach.speed())?;
         let radius = candidate_radius(&elements.plan, &estimate);
         if radius == own {
             return Ok(self.pair.clone());
@@ -312,7 +317,7 @@ impl Model for Condensed {
     }
 
     fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        effects::support(effect, &self.scene, estimate, Some(&self.pair))
+        effects::support(effect, &self.regime.scene, estimate, Some(&self.pair))
     }
 
     fn collide(
@@ -321,13 +326,13 @@ impl Model for Condensed {
         request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        let bodies = self.scene.bodies().each_ref();
+        let bodies = self.regime.scene.bodies().each_ref();
         let relaxations = bodies.map(|body| body.material()?.relaxation());
-        let estimate = match estimate_at(&self.scene, approach.speed()) {
+        let estimate = match estimate_at(&self.regime, approach.speed()) {
             Ok(estimate) => estimate,
             Err(stop) => return Collision::stopped(*approach, stop),
         };
-        let slower = slower(&self.scene, &estimate, approach);
+        let slower = slower(&self.regime.scene, &estimate, approach);
         let n_steps = n_steps(self.options, slower, estimate.relaxed);
         let duration = slower.end * (1.0 + POST_CONTACT_FRACTION) * estimate.hertz.contact_time();
         let mut monitor = ExpectedProgress { monitor, begin: approach.first_touch(), duration };
@@ -335,7 +340,7 @@ impl Model for Condensed {
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
-        static_contact::of_elements(&self.scene, force)
+        static_contact::of_elements(&self.regime.scene, force)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

@@ -2,6 +2,7 @@
 
 pub(crate) mod cost;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use fem_case::{Body, CaseFile, ModelChoice, Scene};
@@ -26,6 +27,7 @@ use crate::effects::{
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
+use crate::estimate::regime::Regime;
 use crate::estimate::{Estimate, mach};
 use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::stepper::{RestartState, Stepper, stopped, to_the_end};
@@ -46,12 +48,15 @@ impl Method for ExplicitMethod {
         "fem"
     }
 
-    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        let Some(half) = MirrorSymmetry::half_of(scene)? else {
-            return Ok(Box::new(Explicit::new(scene)?));
+    fn build(&self, regime: &Regime, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        let scene = &regime.scene;
+        let half = MirrorSymmetry::half_of(scene)?;
+        let plan = Plan::in_regime(regime)?;
+        let Some(half) = half else {
+            return Ok(Box::new(Explicit::with_plan(scene, plan)?));
         };
-        let plan = Plan::of(scene)?;
-        let model = Explicit::with_plan(&half, plan_of_half(&plan, &half)?)?;
+        let half = regime.variant(half)?;
+        let model = Explicit::with_plan(&half.scene, plan_of_half(&plan, &half)?)?;
         Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
@@ -59,10 +64,9 @@ impl Method for ExplicitMethod {
         support(effect, scene, estimate, None)
     }
 
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let plan = Plan::of(scene)?;
-        let is_finite = FiniteStrain::is_on(scene, &plan.estimate);
-        let mut file = plan.resolve(file);
+    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+        let is_finite = FiniteStrain::is_on(&regime.scene, &regime.estimate);
+        let mut file = Plan::in_regime(regime)?.resolve(file);
         // Contact between deformed surfaces has springs of its own.
         if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
             contact.method = None;
@@ -85,7 +89,7 @@ pub struct Explicit {
 /// Sources of the bodies.
 #[derive(Clone, Debug)]
 struct RebuildData {
-    scene: Scene,
+    regime: Regime,
     settings: Settings,
     /// Element size at the contact, m.
     contact_element_size: f64,
@@ -118,7 +122,7 @@ impl Explicit {
         FiniteStrain::check(scene, &plan.estimate)?;
         let approach = approach_of(scene)?;
         let made = RebuildData {
-            scene: scene.clone(),
+            regime: Regime { scene: scene.clone(), estimate: plan.estimate.clone() },
             settings: settings(scene, &plan),
             contact_element_size: plan.contact_element_size,
             method: method(plan.contact_method),
@@ -135,7 +139,7 @@ impl Explicit {
             description: "model fem, explicit finite elements".to_string(),
             approach,
             request: plan.request(),
-            estimate: plan.estimate,
+            estimate: plan.estimate.clone(),
             decisions,
             unread_key_warnings: {
                 let said = ignored_method_warning(scene, bodies.changes_stiffness());
@@ -201,7 +205,7 @@ impl Explicit {
         match request.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
                 let (expected, request) = (estimate.expectation(), frame.request(request));
-                let duration = expected_duration(&self.made.scene, &estimate, approach);
+                let duration = expected_duration(&self.made.regime.scene, &estimate, approach);
                 let run = Run::new(bodies, expected, &request);
                 let made = self.made.clone();
                 Box::new(ExplicitStepper { made, frame, expected, duration, request, run })
@@ -214,13 +218,13 @@ impl Explicit {
     fn meeting(
         &self,
         approach: &Approach,
-    ) -> Result<(Arc<ExplicitBodies>, OwnFrame, Estimate), Stop> {
+    ) -> Result<(Arc<ExplicitBodies>, OwnFrame, Cow<'_, Estimate>), Stop> {
         if *approach == self.setup.approach {
-            return Ok((self.bodies.clone(), self.frame, self.setup.estimate));
+            return Ok((self.bodies.clone(), self.frame, Cow::Borrowed(&self.setup.estimate)));
         }
         let not_made = |error: ModelError| Stop::NotMade(error.to_string());
         let frame = self.made.own_frame(approach).map_err(not_made)?;
-        let estimate = estimate_at(&self.made.scene, approach.speed())?;
+        let estimate = estimate_at(&self.made.regime, approach.speed())?;
         let radius = candidate_radius(&estimate, self.made.contact_element_size);
         let bodies = self.made.bodies(frame.own(), radius).map_err(not_made)?;
         Ok((Arc::new(bodies), frame, estimate))
@@ -230,7 +234,7 @@ impl Explicit {
 impl RebuildData {
     /// Returns the frame in which bodies with this approach are computed.
     fn own_frame(&self, approach: &Approach) -> Result<OwnFrame, ModelError> {
-        let masses = frame_of(&self.scene, approach, 0.0).masses;
+        let masses = frame_of(&self.regime.scene, approach, 0.0).masses;
         Ok(OwnFrame::of(approach, masses)?)
     }
 
@@ -241,15 +245,36 @@ impl RebuildData {
         candidate_radius: f64,
     ) -> Result<ExplicitBodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
-        let parts = parts(
-            &self.scene,
-            &self.inputs,
-            approach.speed(),
-            approach.speed() / self.speed_share,
-        )?;
-        let parts =
-            ModelParts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
+        let parts = self.parts(approach.speed())?;
         ExplicitBodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
+    }
+
+    /// Returns the parts that effects add to the step in addition to stress, at the approach speed (m/s) of these bodies.
+    fn parts(&self, approach_speed: f64) -> Result<ModelParts, ModelError> {
+        let scene = &self.regime.scene;
+        let mut parts = ModelParts {
+            method: self.method,
+            penalty_factor: self.penalty_factor,
+            held: scene.bodies().each_ref().map(Body::is_held),
+            surface_slip: surfaces_slip(scene),
+            ..ModelParts::default()
+        };
+        if let Ok(estimate) = self.regime.at(approach_speed) {
+            parts.finite_strain = FiniteStrain::laws(scene, &estimate);
+            parts.finite_strain_within = FiniteStrain::within(scene, &estimate);
+        }
+        let is_finite = parts.finite_strain != [None; 2];
+        let speed = approach_speed / self.speed_share;
+        if BulkViscosity::is_on(scene, mach(scene, speed), is_finite) {
+            for (input, forces) in self.inputs.iter().zip(&mut parts.node_forces) {
+                forces.extend(bulk_viscosity(input, speed)?);
+            }
+        }
+        if let Some(gravity) = scene.gravity() {
+            let weight: Box<dyn NodeForce> = Box::new(Weight::new(gravity.acceleration));
+            parts.node_forces[1].push(weight);
+        }
+        Ok(parts)
     }
 
     /// Returns these bodies with a larger candidate region, if there is one.
@@ -266,7 +291,7 @@ impl Model for Explicit {
     }
 
     fn support(&self, effect: &dyn Effect, _: &Estimate) -> Option<Support> {
-        support(effect, &self.made.scene, &self.setup.estimate, Some(&self.bodies))
+        support(effect, &self.made.regime.scene, &self.setup.estimate, Some(&self.bodies))
     }
 
     fn collide(
@@ -294,10 +319,10 @@ impl Model for Explicit {
         let request = run.request().clone();
         let bodies = self.bodies_of_run(&run, approach).map_err(rejected)?;
         let run = Run::resume(bodies, run).map_err(rejected)?;
-        let scene = &self.made.scene;
-        let estimate = Estimate::at(scene, approach.speed())
-            .map_err(|error| Rejection::new("body", error.to_string()))?;
-        let duration = expected_duration(scene, &estimate, &approach);
+        let regime = &self.made.regime;
+        let estimate = regime.at(approach.speed());
+        let estimate = estimate.map_err(|error| Rejection::new("body", error.to_string()))?;
+        let duration = expected_duration(&regime.scene, &estimate, &approach);
         let made = self.made.clone();
         Ok(Box::new(ExplicitStepper { made, frame, expected, duration, request, run }))
     }
@@ -309,9 +334,9 @@ impl Model for Explicit {
         request: &OutputRequest,
     ) -> Result<Box<dyn Stepper>, Stop> {
         let not_made = |error: ModelError| Stop::NotMade(error.to_string());
-        let (run, scene) = (&before.contact, &self.made.scene);
+        let (run, scene) = (&before.contact, &self.made.regime.scene);
         let frame = self.made.own_frame(approach).map_err(not_made)?;
-        let estimate = estimate_at(scene, approach.speed())?;
+        let estimate = estimate_at(&self.made.regime, approach.speed())?;
         let bodies = self.bodies_of_run(run, *frame.own()).map_err(not_made)?;
         let (expected, request) = (estimate.expectation(), frame.request(request));
         let run = Run::again(bodies, expected, &request, run).map_err(not_made)?;
@@ -321,7 +346,7 @@ impl Model for Explicit {
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
-        of_elements(&self.made.scene, force)
+        of_elements(&self.made.regime.scene, force)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
@@ -384,34 +409,6 @@ fn rejected(error: ModelError) -> Rejection {
         ),
         _ => rejection,
     }
-}
-
-/// Returns the parts that effects add to the step in addition to stress and contact, for an approach speed (m/s)
-/// of the whole scene.
-fn parts(
-    scene: &Scene,
-    inputs: &[BodyInput; 2],
-    approach_speed: f64,
-    speed: f64,
-) -> Result<ModelParts, ModelError> {
-    let held = scene.bodies().each_ref().map(Body::is_held);
-    let surface_slip = surfaces_slip(scene);
-    let mut parts = ModelParts { held, surface_slip, ..ModelParts::default() };
-    if let Ok(estimate) = Estimate::at(scene, approach_speed) {
-        parts.finite_strain = FiniteStrain::laws(scene, &estimate);
-        parts.finite_strain_within = FiniteStrain::within(scene, &estimate);
-    }
-    let is_finite = parts.finite_strain != [None; 2];
-    if BulkViscosity::is_on(scene, mach(scene, speed), is_finite) {
-        for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
-            forces.extend(bulk_viscosity(input, speed)?);
-        }
-    }
-    if let Some(gravity) = scene.gravity() {
-        let weight: Box<dyn NodeForce> = Box::new(Weight::new(gravity.acceleration));
-        parts.node_forces[1].push(weight);
-    }
-    Ok(parts)
 }
 
 /// Returns the bulk viscosity of a body's elements, which are compressed at most at the approach speed, m/s.

@@ -1,12 +1,12 @@
 //! Hertz' closed form for elastic half-spaces; with the spheres' finite size, gravity or a plate, Ting's model of
 //! elastic bodies.
 
-use fem_case::{Scene, Switch};
+use fem_case::Switch;
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
 use super::{Motion, Reduced, ting};
 use crate::effects::{NamedEffect, SurfaceSlip};
-use crate::estimate::Estimate;
+use crate::estimate::regime::Regime;
 use crate::rejection::Rejection;
 
 #[derive(Debug)]
@@ -19,8 +19,8 @@ impl Motion for ClosedForm {
 }
 
 /// Builds the model of a scene.
-pub(super) fn build(scene: &Scene, finite_size: bool) -> Result<Reduced, Rejection> {
-    let estimate = Estimate::checked(scene)?;
+pub(super) fn build(regime: &Regime, finite_size: bool) -> Result<Reduced, Rejection> {
+    let Regime { scene, estimate } = regime;
     // Ting's model of elastic bodies is Hertz' with finite size, gravity and a plate.
     let has_plate = scene.bodies().iter().any(|body| body.plate().is_some());
     let is_closed = !finite_size && scene.gravity().is_none() && !has_plate;
@@ -29,12 +29,12 @@ pub(super) fn build(scene: &Scene, finite_size: bool) -> Result<Reduced, Rejecti
         true => Box::new(ClosedForm(estimate.hertz)),
         false => {
             let scene = SurfaceSlip.switched(scene, Some(Switch::Off));
-            Box::new(ting::motion(&scene, &estimate, false, finite_size, tolerance)?)
+            Box::new(ting::motion(&scene, estimate, false, finite_size, tolerance)?)
         }
     };
     let description = match is_closed {
         true => "model hertz, a closed form",
         false => "model hertz, one degree of freedom",
     };
-    Reduced::of(scene, estimate, *estimate.hertz.pair(), motion, description.to_string())
+    Reduced::of_motion(regime, *estimate.hertz.pair(), motion, description.to_string())
 }

@@ -11,6 +11,7 @@ use fem_laws::{
 use super::{Motion, Reduced, rejected};
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::thin_plate_mobility;
+use crate::estimate::regime::Regime;
 use crate::rejection::Rejection;
 
 /// Returns the law with Hunt and Crossley's speed (m/s) filled in, at which their restitution holds.
@@ -45,14 +46,14 @@ impl Motion for LawMotion {
 
 /// Builds the model of a scene.
 pub(super) fn build(
-    scene: &Scene,
+    regime: &Regime,
     law: &LawInput,
     end_rule: EndRule,
     tolerance: f64,
 ) -> Result<Reduced, Rejection> {
-    let estimate = Estimate::checked(scene)?;
+    let Regime { scene, estimate } = regime;
     let reject = |error: LawError| rejected(scene, &error);
-    let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;
+    let (numbers, pair) = law_numbers(scene, estimate, law, end_rule)?;
     let name = law.family.name();
     let Some(made) = law.family.law(&pair, &numbers) else {
         let message = format!("{name} is no law of the overlap");
@@ -68,7 +69,7 @@ pub(super) fn build(
         impact = impact.with_plate(mobility).map_err(reject)?;
     }
     let motion = Box::new(LawMotion { impact, law, numbers });
-    Reduced::of(scene, estimate, pair, motion, description)
+    Reduced::of_motion(regime, pair, motion, description)
 }
 
 /// Returns the parameters of a law and the pair that they belong to.

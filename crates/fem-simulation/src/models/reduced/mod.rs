@@ -23,6 +23,7 @@ use crate::effects::{
 };
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
+use crate::estimate::regime::Regime;
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
 use crate::rejection::Rejection;
 
@@ -46,26 +47,29 @@ impl Method for ReducedMethod {
         }
     }
 
-    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        if scene.model().name() != self.name() {
-            return Err(Rejection::chose_another(scene, self.name()));
+    fn build(&self, regime: &Regime, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        if regime.scene.model().name() != self.name() {
+            return Err(Rejection::chose_another(&regime.scene, self.name()));
         }
-        Ok(Box::new(Reduced::new(scene)?))
+        Ok(Box::new(Reduced::of(regime)?))
     }
 
     fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
-        let reduced = matches!(scene.model(), ModelChoice::Law { .. }).then(|| Reduced::new(scene));
+        let regime = || Regime { scene: scene.clone(), estimate: estimate.clone() };
+        let is_law = matches!(scene.model(), ModelChoice::Law { .. });
+        let reduced = is_law.then(|| Reduced::of(&regime()));
         let law = reduced.as_ref().and_then(|reduced| reduced.as_ref().ok()?.law());
         effects::support(effect, scene, estimate, law)
     }
 
     /// Computes the collision, which takes milliseconds.
-    fn check(&self, scene: &Scene) -> Result<(), Rejection> {
-        let impact = Reduced::new(scene)?.impact(scene.approach_speed());
-        impact.map(|_| ()).map_err(|error| rejected(scene, &error))
+    fn check(&self, regime: &Regime) -> Result<(), Rejection> {
+        let impact = Reduced::of(regime)?.impact(regime.scene.approach_speed());
+        impact.map(|_| ()).map_err(|error| rejected(&regime.scene, &error))
     }
 
-    fn resolve(&self, scene: &Scene, mut file: CaseFile) -> Result<CaseFile, Rejection> {
+    fn resolve(&self, regime: &Regime, mut file: CaseFile) -> Result<CaseFile, Rejection> {
+        let scene = &regime.scene;
         let table = match *scene.model() {
             ModelChoice::Hertz { finite_size } => {
                 HertzTable { finite_size: Some(finite_size) }.into()
@@ -75,7 +79,7 @@ impl Method for ReducedMethod {
                 TingTable { finite_size: Some(finite_size), tolerance }.into()
             }
             ModelChoice::Law { end_rule, tolerance, .. } => {
-                Reduced::new(scene)?;
+                Reduced::of(regime)?;
                 let given = file.model.take().unwrap_or_default();
                 let end = match end_rule {
                     EndRule::ZeroForce => End::ZeroForce,
@@ -131,14 +135,22 @@ impl Reduced {
     /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
     /// contact too large for the finite-size correction; a law that cannot be made of this pair.
     pub fn new(scene: &Scene) -> Result<Self, Rejection> {
-        PlateBending::check(scene)?;
-        match scene.model() {
-            ModelChoice::Hertz { finite_size } => hertz::build(scene, *finite_size),
+        Self::of(&Regime::of(scene.clone())?)
+    }
+
+    /// Builds the reduced model of a scene in its regime.
+    ///
+    /// # Errors
+    /// Those of [`Reduced::new`].
+    pub(crate) fn of(regime: &Regime) -> Result<Self, Rejection> {
+        PlateBending::check(&regime.scene)?;
+        match regime.scene.model() {
+            ModelChoice::Hertz { finite_size } => hertz::build(regime, *finite_size),
             ModelChoice::Ting { finite_size, tolerance } => {
-                ting::build(scene, *finite_size, *tolerance)
+                ting::build(regime, *finite_size, *tolerance)
             }
             ModelChoice::Law { law, end_rule, tolerance } => {
-                law::build(scene, law, *end_rule, *tolerance)
+                law::build(regime, law, *end_rule, *tolerance)
             }
             ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
                 Err(Rejection::new("model", "finite elements are no reduced model"))
@@ -147,21 +159,20 @@ impl Reduced {
     }
 
     /// Makes the model of a scene from its motion. The pair has relaxed moduli if the law is a slow limit.
-    pub(super) fn of(
-        scene: &Scene,
-        estimate: Estimate,
+    pub(super) fn of_motion(
+        regime: &Regime,
         pair: Pair,
         motion: Box<dyn Motion>,
         description: String,
     ) -> Result<Self, Rejection> {
-        let support =
-            |effect: &dyn Effect| effects::support(effect, scene, &estimate, motion.law());
-        let decisions = decide(scene, &estimate, support)?;
+        let Regime { scene, estimate } = regime;
+        let support = |effect: &dyn Effect| effects::support(effect, scene, estimate, motion.law());
+        let decisions = decide(scene, estimate, support)?;
         let setup = ModelSetup {
             description,
             approach: approach_of(scene)?,
             request: OutputRequest::history(),
-            estimate,
+            estimate: estimate.clone(),
             decisions,
             unread_key_warnings: effects::unread_keys(scene),
             cost: Cost::ClosedForm { law: motion.law().copied() },
@@ -192,7 +203,8 @@ impl Reduced {
     /// A scene whose closed-form estimates are not finite; a law that cannot be made of this pair.
     pub fn parameters_of(scene: &Scene, law: &LawInput) -> Result<Vec<f64>, Rejection> {
         let end_rule = law.family.end_rule().unwrap_or_default();
-        let (parameters, _) = law::law_numbers(scene, &Estimate::checked(scene)?, law, end_rule)?;
+        let Regime { scene, estimate } = Regime::of(scene.clone())?;
+        let (parameters, _) = law::law_numbers(&scene, &estimate, law, end_rule)?;
         Ok(parameters)
     }
 

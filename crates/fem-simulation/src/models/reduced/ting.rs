@@ -7,6 +7,7 @@ use super::{Motion, Reduced, rejected};
 use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
+use crate::estimate::regime::Regime;
 use crate::estimate::semi_infinite_partner::radiating_impact;
 use crate::estimate::viscous_flow;
 use crate::rejection::Rejection;
@@ -26,21 +27,21 @@ impl Motion for Ting {
 struct WithRadiation {
     /// The model without radiation.
     ting: Ting,
-    scene: Scene,
+    regime: Regime,
     finite_size: bool,
     tolerance: f64,
 }
 
 impl Motion for WithRadiation {
     fn impact(&self, speed: f64) -> Result<Impact, LawError> {
-        let estimate = Estimate::at(&self.scene, speed)?;
-        let radiating = PartnerWaves::radiating(&self.scene, &estimate);
+        let Self { regime, finite_size, tolerance, .. } = self;
+        let (scene, estimate) = (&regime.scene, regime.at(speed)?);
+        let radiating = PartnerWaves::radiating(scene, &estimate);
         match radiating {
             [None, None] => self.ting.impact(speed),
             _ => {
-                let Self { scene, finite_size, tolerance, .. } = self;
                 let finish = |ting: Ting| with_gravity(ting, scene)?.with_tolerance(*tolerance);
-                radiating_impact(scene, &radiating, speed, *finite_size, finish)
+                radiating_impact(scene, &radiating, &estimate, *finite_size, finish)
             }
         }
     }
@@ -60,16 +61,16 @@ fn with_gravity(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
 
 /// Builds the model of a scene.
 pub(super) fn build(
-    scene: &Scene,
+    regime: &Regime,
     finite_size: bool,
     tolerance: f64,
 ) -> Result<Reduced, Rejection> {
-    let estimate = Estimate::checked(scene)?;
-    viscous_flow::check(scene, &estimate)?;
-    let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
-    let motion = Box::new(WithRadiation { ting, scene: scene.clone(), finite_size, tolerance });
+    let Regime { scene, estimate } = regime;
+    viscous_flow::check(scene, estimate)?;
+    let ting = motion(scene, estimate, true, finite_size, tolerance)?;
+    let motion = Box::new(WithRadiation { ting, regime: regime.clone(), finite_size, tolerance });
     let description = "model ting, one degree of freedom".to_string();
-    Reduced::of(scene, estimate, *estimate.hertz.pair(), motion, description)
+    Reduced::of_motion(regime, *estimate.hertz.pair(), motion, description)
 }
 
 /// Returns Ting's model of a scene; without relaxation its materials are elastic with the instantaneous moduli.

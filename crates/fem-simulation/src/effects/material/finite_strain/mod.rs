@@ -361,7 +361,7 @@ impl Effect for FiniteStrain {
         }
         let radius = estimate.hertz.pair().effective_radius();
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;
-        let found = Estimate { strain, ..*estimate };
+        let found = Estimate { strain, ..estimate.clone() };
         let is_larger = !is_needed(scene, estimate) && is_needed(scene, &found);
         let is_small = !Self::is_on(scene, estimate);
         let advice = match scene.model() {
