@@ -118,7 +118,8 @@ fn add_laws(schema: &mut Value) {
             }
             _ => {
                 let alone = sets.iter().map(|set| {
-                    let others = sets.iter().filter(|other| *other != set).copied().flatten();
+                    let is_own = |key: &str| set.iter().any(|(own, _)| *own == key);
+                    let others = sets.iter().copied().flatten().filter(|(key, _)| !is_own(key));
                     let others: Vec<_> =
                         others.map(|(key, _)| json!({ "required": [key] })).collect();
                     json!({ "required": required(set), "not": { "anyOf": others } })
