@@ -82,8 +82,23 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
                 .into(),
         ),
         "mass" if ["body", "material"].contains(&first) => Some(
-            "the mass follows from the diameter and the density of the material: remove the key".into(),
+            "the mass follows from the diameter and the density of the material: remove the key; nearest to a striker \
+             that is heavier than its tip: a material of its own with the mean density"
+                .into(),
         ),
+        "thickness" | "wall_thickness" | "shell_thickness" | "inner_diameter" | "inner_radius" | "hollow"
+            if first == "body" && !inner.ends_with(".plate") => Some(
+            "hollow balls are not computed; nearest: a solid one of the mean density, with measured numbers in the law \
+             of [model], such as law = { linear = { k = \"20 kN/m\", e = 0.9 } }"
+                .into(),
+        ),
+        "support" if ["clamped", "fixed", "simply_supported", "hinged"].contains(&value.trim_matches(['"', '\''])) => {
+            Some(
+                "the edge of a plate is free, no other one is computed; nearest: a plate without diameter and support, \
+                 which is right as long as no wave returns from the edge"
+                    .into(),
+            )
+        }
         "E" | "e_modulus" | "elastic_modulus" | "modulus" | "stiffness" if first == "material" => {
             Some(format!("the key is youngs_modulus = {value}"))
         }
@@ -112,7 +127,9 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     } else if let Some(rest) = message.strip_prefix("unknown variant ") {
         let (found, allowed) = split_backticked(rest);
         let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
-        let help = format!("{}write one of {}", near(found, &allowed), quoted.join(", "));
+        let words = || format!("{}write one of {}", near(found, &allowed), quoted.join(", "));
+        let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+        let help = hint(table, key, document.text_on(&fault.span)).unwrap_or_else(words);
         fault.error(format!("{path} is \"{found}\", which is not allowed")).with_help(help)
     } else if let Some((found, wanted)) = expected("invalid type: ") {
         fault.wrong_type(found, wanted)
