@@ -116,6 +116,11 @@ impl Document {
         self.origins.get(path).is_some()
     }
 
+    /// Returns the paths of all keys that the case gives.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &str> {
+        self.origins.paths()
+    }
+
     /// Returns the paths of all arrays in the texts.
     pub(crate) fn arrays(&self) -> &[String] {
         self.origins.arrays()

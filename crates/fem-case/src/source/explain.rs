@@ -5,11 +5,11 @@ use std::ops::Range;
 use toml::de::Error;
 
 use crate::error::CaseError;
-use crate::schema::HardeningTable;
 use crate::schema::choices::choice_at;
+use crate::schema::{CaseFile, HardeningTable};
 use crate::source::document::Document;
 use crate::source::similar_words::nearest;
-use crate::source::toml_syntax::first_line;
+use crate::source::toml_syntax::{first_line, join, quote_key};
 use crate::sweep::values::split_unit;
 
 /// Examples of required keys.
@@ -33,10 +33,54 @@ const EXAMPLES: &[(&str, &str)] = &[
 ];
 
 /// The tables and keys of a case outside of all tables.
-const KEYS_OF_CASE: [&str; 14] = [
-    "title", "material", "body", "start", "gravity", "stop", "mesh", "contact", "time", "output",
-    "model", "accuracy", "effects", "limits",
+const KEYS_OF_CASE: [&str; 15] = [
+    "title", "scene", "material", "body", "start", "gravity", "stop", "mesh", "contact", "time",
+    "output", "model", "accuracy", "effects", "limits",
 ];
+
+/// Tables of bodies and materials: the path, and the TOML before one of their keys.
+const INNER_TABLES: [(&str, &str); 6] = [
+    ("body.0", "[[body]]\n"),
+    ("body.0.sphere", "[[body]]\nsphere."),
+    ("body.0.plate", "[[body]]\nplate."),
+    ("material.NAME", "material.m."),
+    ("material.NAME.flow", "material.m.flow."),
+    ("material.NAME.relaxation", "material.m.relaxation."),
+];
+
+/// Returns the paths at which a case gives a key that it has at `path` by mistake, or else the table to which the key belongs.
+fn elsewhere(document: &Document, path: &str, key: &str) -> Vec<String> {
+    let ending = format!(".{}", quote_key(key));
+    let given = |table: &str| -> Vec<String> {
+        let below = join(path, "");
+        let is_other = |it: &&str| it.starts_with(table) && *it != path && !it.starts_with(&below);
+        let all = document.paths().filter(|it| it.ends_with(&ending)).filter(is_other);
+        all.take(2).map(str::to_string).collect()
+    };
+    let own = path.rfind('.').map_or_else(Vec::new, |dot| given(&path[..=dot]));
+    let given = if own.is_empty() { given("") } else { own };
+    if !given.is_empty() || !document.has("body") {
+        return given;
+    }
+    // The type of the value is wrong for any key that the table has.
+    let has_key = |before: &str| {
+        let read: Result<CaseFile, _> = toml::from_str(&format!("{before}{} = []", &ending[1..]));
+        read.err().is_none_or(|error| {
+            let message = error.message();
+            !message.starts_with("unknown ") && !message.starts_with("invalid type: map")
+        })
+    };
+    let outer = KEYS_OF_CASE.map(|table| (table, format!("{table}.")));
+    let outer = outer.iter().filter(|(table, _)| !["material", "body"].contains(table));
+    let outer = outer.map(|(table, before)| (*table, before.as_str()));
+    let found = INNER_TABLES.into_iter().chain(outer).find(|(_, before)| has_key(before));
+    let name = |table: &str| {
+        let names = ["body.0.material", "body.1.material"].map(|key| document.value_text(key));
+        let name = names.into_iter().find(|name| !name.is_empty()).unwrap_or("NAME");
+        table.replace("NAME", &quote_key(name.trim_matches(['"', '\''])))
+    };
+    found.map(|(table, _)| join(&name(table), &ending[1..])).into_iter().collect()
+}
 
 /// Returns what a key means that this table does not have, but which many write: `table` is its path, `value` its text.
 fn hint(table: &str, key: &str, value: &str) -> Option<String> {
@@ -162,7 +206,20 @@ impl Fault<'_> {
         if table.ends_with(".flow.hardening") {
             allowed.retain(|key| !HardeningTable::NAMES.contains(key));
         }
-        let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
+        let keys = || {
+            let near = near(found, &allowed);
+            let meant = match found {
+                "velocity" | "speed" | "initial_velocity" | "impact_speed" => "approach_speed",
+                _ => found,
+            };
+            let near = match elsewhere(self.document, self.path, meant).join("` or `") {
+                other if near.is_empty() && !other.is_empty() => {
+                    format!("did you mean `{other}`? ")
+                }
+                _ => near,
+            };
+            format!("{near}the keys here are {}", allowed.join(", "))
+        };
         let help = match (table, found) {
             _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
             ("", _) if allowed.contains(&"vary") && self.document.has("body") => {
@@ -227,7 +284,12 @@ fn unused_material(document: &Document, name: &str) -> Option<String> {
     names.retain(|text| !text.is_empty());
     names.dedup();
     let is_used = names.is_empty() || names.contains(&name.trim_matches(['"', '\'']));
-    (!is_used).then(|| format!("no body is of this material: they are of {}", names.join(" and ")))
+    let tables = names.iter().map(|name| format!("[material.{}]", quote_key(name)));
+    let tables = tables.collect::<Vec<_>>().join(" or ");
+    (!is_used).then(|| {
+        let names = names.join(" and ");
+        format!("no body is of this material: they are of {names}, whose keys are in {tables}")
+    })
 }
 
 /// Returns `did you mean …? ` if one of the allowed words is similar.
