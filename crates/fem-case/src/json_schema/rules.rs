@@ -72,9 +72,11 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
     });
     add(schema, "/definitions/BodyTable", [one_of(&SHAPES), needs_material]);
     let names: Vec<String> = library::names();
+    let others = library::materials().values().flat_map(|entry| &entry.names);
+    let others = others.map(|name| format!("{}{name}", library::PREFIX));
     let of_library = json!({
         "if": { "pattern": "^lib:" },
-        "then": { "enum": names },
+        "then": { "enum": names.iter().cloned().chain(others).collect::<Vec<_>>() },
         "examples": names,
     });
     add(schema, "/definitions/BodyTable/properties/material", [of_library]);
