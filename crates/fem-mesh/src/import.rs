@@ -17,12 +17,13 @@ impl SphereMesh {
     /// given radius: contact pole at the origin, body above or below.
     ///
     /// Quads may wind either way. Nodes within single precision of the axis or
-    /// the surface are moved onto them.
+    /// the surface are moved onto them. Nodes that no element uses, such as the
+    /// centres of arcs, are left out.
     ///
     /// # Errors
-    /// Node numbers out of range, nodes that no element uses, inverted or
-    /// degenerate elements, a boundary that is not one closed curve made of
-    /// the axis and the circle of the given radius through the origin.
+    /// Node numbers out of range, inverted or degenerate elements, a boundary
+    /// that is not one closed curve made of the axis and the circle of the given
+    /// radius through the origin.
     pub fn import(
         radius: f64,
         mut nodes: Vec<[f64; 2]>,
@@ -31,7 +32,7 @@ impl SphereMesh {
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(MeshError::Length { name: "radius", value: radius });
         }
-        check_indices(&nodes, &quads)?;
+        leave_out_unused(&mut nodes, &mut quads)?;
         orient(&nodes, &mut quads);
         if let Some([first, second]) = at_one_place(&nodes) {
             return Err(MeshError::Import(format!(
@@ -53,31 +54,31 @@ impl SphereMesh {
     }
 }
 
-fn check_indices(nodes: &[[f64; 2]], quads: &[[u32; 4]]) -> Result<(), MeshError> {
+/// Leaves out the nodes that no quad uses, and renumbers the others in their order.
+fn leave_out_unused(nodes: &mut Vec<[f64; 2]>, quads: &mut [[u32; 4]]) -> Result<(), MeshError> {
     if quads.is_empty() {
         return Err(MeshError::Import("the mesh has no quadrilaterals".into()));
     }
     if let Some(node) = nodes.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
         return Err(MeshError::Import(format!("node {node} is not at a finite position")));
     }
-    let mut used = vec![false; nodes.len()];
+    let mut numbers = vec![u32::MAX; nodes.len()];
     for (element, quad) in quads.iter().enumerate() {
         for &node in quad {
-            match used.get_mut(node as usize) {
-                Some(flag) => *flag = true,
-                None => {
-                    return Err(MeshError::Import(format!(
-                        "element {element} names node {node}; the mesh has {} nodes",
-                        nodes.len()
-                    )));
-                }
-            }
+            *numbers.get_mut(node as usize).ok_or_else(|| {
+                let n_nodes = nodes.len();
+                MeshError::Import(format!(
+                    "element {element} names node {node}; the mesh has {n_nodes} nodes"
+                ))
+            })? = 0;
         }
     }
-    match used.iter().position(|flag| !flag) {
-        Some(node) => Err(MeshError::Import(format!("node {node} belongs to no element"))),
-        None => Ok(()),
-    }
+    let used = numbers.iter_mut().filter(|number| **number == 0);
+    used.zip(0..).for_each(|(number, k)| *number = k);
+    let mut number = numbers.iter();
+    nodes.retain(|_| number.next().is_some_and(|number| *number != u32::MAX));
+    quads.iter_mut().flatten().for_each(|node| *node = numbers[*node as usize]);
+    Ok(())
 }
 
 /// Turns every quad counter-clockwise.

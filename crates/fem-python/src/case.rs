@@ -50,7 +50,7 @@ impl Case {
         let text = fem_case::text_at(&path, &name).or_raise(py)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
         let case = Self::made(py, name, text, folder, overrides)?;
-        case.case.check_units().or_raise(py)?;
+        case.case.check_units(true).or_raise(py)?;
         Ok(case)
     }
 

@@ -95,9 +95,10 @@ pub fn options() -> String {
 #[pyfunction]
 pub fn materials() -> String {
     let entry = |(name, found): (&String, &library::Material)| {
-        let library::Material { title, source, range, material, measured } = found;
+        let library::Material { title, names, source, range, material, measured } = found;
         let value = json!({
             "title": title,
+            "names": names,
             "source": source,
             "range": range,
             "table": material,

@@ -185,6 +185,7 @@ def test_records_become_data_of_a_fit():
 def test_the_library_of_materials():
     assert "pmma" in fem_run.materials and "lib:pmma" in fem_run.materials
     pmma = fem_run.materials["pmma"]
+    assert "lib:Plexiglass" in fem_run.materials and fem_run.materials["PMMA"] == pmma
     assert pmma["source"] and pmma["table"]["density"] > 1000
     assert "density" in fem_run.materials.toml("pmma")
     ice = fem_run.materials["ice"]["measured"][0]

@@ -72,9 +72,11 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
     });
     add(schema, "/definitions/BodyTable", [one_of(&SHAPES), needs_material]);
     let names: Vec<String> = library::names();
+    let others = library::materials().values().flat_map(|entry| &entry.names);
+    let others = others.map(|name| format!("{}{name}", library::PREFIX));
     let of_library = json!({
         "if": { "pattern": "^lib:" },
-        "then": { "enum": names },
+        "then": { "enum": names.iter().cloned().chain(others).collect::<Vec<_>>() },
         "examples": names,
     });
     add(schema, "/definitions/BodyTable/properties/material", [of_library]);
@@ -118,7 +120,8 @@ fn add_laws(schema: &mut Value) {
             }
             _ => {
                 let alone = sets.iter().map(|set| {
-                    let others = sets.iter().filter(|other| *other != set).copied().flatten();
+                    let is_own = |key: &str| set.iter().any(|(own, _)| *own == key);
+                    let others = sets.iter().copied().flatten().filter(|(key, _)| !is_own(key));
                     let others: Vec<_> =
                         others.map(|(key, _)| json!({ "required": [key] })).collect();
                     json!({ "required": required(set), "not": { "anyOf": others } })

@@ -13,6 +13,7 @@ use fem_material::{ElasticModuli, ModuliInput};
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
+use toml::map::Entry;
 
 use crate::quantity::{Quantity, Stress};
 use crate::schema::{CaseFile, FlowPoints, FlowTable, MaterialTable};
@@ -33,6 +34,9 @@ pub(crate) const TEXT: &str = include_str!("library.toml");
 pub struct Material {
     /// Title of the material.
     pub title: String,
+    /// Other names of the material.
+    #[serde(default)]
+    pub names: Vec<String>,
     /// Source of the numbers.
     pub source: String,
     /// Range of validity and scatter of the numbers.
@@ -62,39 +66,40 @@ pub(crate) fn names() -> Vec<String> {
     materials().keys().map(|name| format!("{PREFIX}{name}")).collect()
 }
 
-/// Returns the name, without `lib:`, that is nearest to an unknown one, or that of a material whose title has this word.
+/// Returns the material of a name, without `lib:`, or of one of its other names, and its name in the library. Capitals do not
+/// matter, nor do spaces in place of hyphens.
+pub fn find(name: &str) -> Option<(&'static str, &'static Material)> {
+    let plain = |name: &str| name.to_lowercase().replace([' ', '_'], "-");
+    let wanted = plain(name);
+    let is_it = |(known, entry): &(&'static String, &'static Material)| {
+        **known == wanted || entry.names.iter().any(|other| plain(other) == wanted)
+    };
+    materials().iter().find(is_it).map(|(known, entry)| (known.as_str(), entry))
+}
+
+/// Returns the name, without `lib:`, of the material that has the name nearest to an unknown one.
 pub fn nearest_to(name: &str) -> Option<&'static str> {
-    let names: Vec<&str> = materials().keys().map(String::as_str).collect();
-    // A part of a name, `rubber`, or a misspelling.
-    let within = names.iter().find(|known| name.len() > 2 && known.contains(name));
-    let near = nearest(name, &names, 0.8);
-    let titled = || {
-        let lower = name.to_lowercase();
-        let has_word = |title: &str| {
-            let title = title.to_lowercase();
-            let mut words = title.split(|c: char| !c.is_alphanumeric());
-            words.any(|word| {
-                word.len() > 2 && (word == lower || word.len() > 5 && lower.starts_with(word))
-            })
-        };
-        materials()
-            .iter()
-            .find(|(_, entry)| has_word(&entry.title))
-            .map(|(known, _)| known.as_str())
+    let all = || {
+        materials().iter().flat_map(|(known, entry)| {
+            std::iter::once(known)
+                .chain(&entry.names)
+                .map(move |other| (other.to_lowercase(), known))
+        })
     };
-    // A misspelled part of a name, `rubbr`.
-    let parts: Vec<&str> = names.iter().flat_map(|known| known.split('-')).collect();
+    let lower = name.to_lowercase();
+    let whole: Vec<String> = all().map(|(other, _)| other).collect();
+    let near = || find(nearest(name, &whole, 0.8)?);
+    let first = |is: &dyn Fn(&str) -> bool| {
+        all().find(|(other, _)| is(other)).map(|(_, known)| known.as_str())
+    };
+    // A part of a name, `rubber`, or a misspelled one, `rubbr`.
+    let within = || first(&|other| lower.len() > 2 && other.contains(&lower));
     let of_part = || {
+        let parts: Vec<&str> = whole.iter().flat_map(|other| other.split('-')).collect();
         let part = nearest(name, &parts, 0.9)?;
-        names.iter().find(|known| known.split('-').any(|own| own == part)).copied()
+        first(&|other| other.split('-').any(|own| own == part))
     };
-    // PDMS is in a title, and nearly EPDM.
-    near.filter(|_| within.is_some() || titled().is_none())
-        .or(within.copied())
-        .or_else(titled)
-        .or_else(of_part)
-        .and_then(|near| materials().get_key_value(near))
-        .map(|(near, _)| near.as_str())
+    near().map(|(known, _)| known).or_else(within).or_else(of_part)
 }
 
 /// A material of the library beside one of a case, by stiffness and density.
@@ -206,8 +211,9 @@ pub(crate) fn name_of(name: &str, table: &MaterialTable) -> Option<&'static str>
     (is_of_library(name) || n_changed <= MAX_CHANGED).then_some(known)
 }
 
-fn find(name: &str) -> Option<&'static Material> {
-    materials().get(name.strip_prefix(PREFIX)?)
+/// Returns a name of a case, which begins with `lib:`, as the library has it.
+fn canonical(name: &str) -> Option<String> {
+    find(name.strip_prefix(PREFIX)?).map(|(known, _)| format!("{PREFIX}{known}"))
 }
 
 /// Returns the table of a material as in a case file, `[material.NAME]`, with the text of the library.
@@ -238,9 +244,12 @@ fn section(name: &str, table: &DeTable<'_>) -> String {
 
 /// Adds to a case made in code the tables of the library's materials that its bodies name.
 pub(crate) fn fill(file: &mut CaseFile) {
-    for body in &file.body {
-        if let Some((name, entry)) =
-            body.material.as_ref().and_then(|name| Some((name, find(name)?)))
+    let renamed = std::mem::take(&mut file.material).into_iter();
+    file.material = renamed.map(|(name, own)| (canonical(&name).unwrap_or(name), own)).collect();
+    for name in file.body.iter_mut().filter_map(|body| body.material.as_mut()) {
+        *name = canonical(name).unwrap_or_else(|| name.clone());
+        if is_of_library(name)
+            && let Some((_, entry)) = find(bare(name))
         {
             file.material.entry(name.clone()).or_insert_with(|| entry.material.clone());
         }
@@ -250,6 +259,7 @@ pub(crate) fn fill(file: &mut CaseFile) {
 /// Adds to a tree the keys of the library's materials that its bodies name, unless it gives them; spans count from
 /// `start`. Returns whether it added any.
 pub(crate) fn underlay(root: &mut DeTable<'_>, start: usize) -> bool {
+    rename(root);
     let names = named(root);
     if names.is_empty() {
         return false;
@@ -281,6 +291,27 @@ fn lay_under<'t>(given: &mut Spanned<DeValue<'t>>, below: Spanned<DeValue<'t>>) 
     if let (DeValue::Table(given), DeValue::Table(below)) = (given.get_mut(), below.into_inner()) {
         for (key, value) in below {
             given.entry(key).or_insert(value);
+        }
+    }
+}
+
+/// Gives the library's own names to the tables of its materials and to those that the bodies name.
+fn rename(root: &mut DeTable<'_>) {
+    if let Some(DeValue::Table(all)) = root.get_mut("material").map(Spanned::get_mut) {
+        for (key, value) in std::mem::take(all) {
+            let name = canonical(key.get_ref()).map(DeString::Owned);
+            match all.entry(Spanned::new(key.span(), name.unwrap_or_else(|| key.into_inner()))) {
+                Entry::Occupied(known) => lay_under(known.into_mut(), value),
+                Entry::Vacant(place) => drop(place.insert(value)),
+            }
+        }
+    }
+    let Some(DeValue::Array(bodies)) = root.get_mut("body").map(Spanned::get_mut) else { return };
+    for body in bodies.iter_mut() {
+        let DeValue::Table(body) = body.get_mut() else { continue };
+        let Some(material) = body.get_mut("material").map(Spanned::get_mut) else { continue };
+        if let Some(name) = material.as_str().and_then(canonical) {
+            *material = DeValue::String(name.into());
         }
     }
 }

@@ -66,20 +66,22 @@ const LENGTH: [i32; 4] = [1, 0, 0, 0];
 const MASS: [i32; 4] = [0, 1, 0, 0];
 const TIME: [i32; 4] = [0, 0, 1, 0];
 const SPEED: [i32; 4] = [1, 0, -1, 0];
+const FORCE: [i32; 4] = [1, 1, -2, 0];
 const PRESSURE: [i32; 4] = [-1, 1, -2, 0];
 const BYTES: [i32; 4] = [0, 0, 0, 1];
 
-/// The units, all exact by definition. psi = lb g_n / in² = 0.45359237 · 9.80665 / 0.0254² Pa.
+/// The units, all exact by definition. lbf = lb g_n = 0.45359237 · 9.80665 N, and psi = lbf/in².
 const UNITS: &[Unit] = &[
     unit("m", LENGTH, 0),
     unit("g", MASS, -3),
     unit("s", TIME, 0),
-    unit("N", [1, 1, -2, 0], 0),
+    unit("N", FORCE, 0),
     unit("Pa", PRESSURE, 0),
     unit("J", [2, 1, -2, 0], 0),
     unit("W", [2, 1, -3, 0], 0),
     unit("Hz", [0, 0, -1, 0], 0),
     unit("t", MASS, 3),
+    unit("dyn", FORCE, -5),
     unit("L", [3, 0, 0, 0], -3),
     unit("l", [3, 0, 0, 0], -3),
     unit("bar", PRESSURE, 5),
@@ -90,10 +92,17 @@ const UNITS: &[Unit] = &[
     plain_unit("d", TIME, 2, [864.0, 1.0]),
     plain_unit("in", LENGTH, -4, [254.0, 1.0]),
     plain_unit("ft", LENGTH, -4, [3048.0, 1.0]),
+    plain_unit("cc", [3, 0, 0, 0], -6, [1.0, 1.0]),
+    plain_unit("fps", SPEED, -4, [3048.0, 1.0]),
     plain_unit("mph", SPEED, -5, [44704.0, 1.0]),
+    plain_unit("tonne", MASS, 3, [1.0, 1.0]),
     plain_unit("lb", MASS, -8, [45359237.0, 1.0]),
+    plain_unit("lbm", MASS, -8, [45359237.0, 1.0]),
+    plain_unit("lbf", FORCE, -13, [45359237.0 * 980665.0, 1.0]),
+    plain_unit("kgf", FORCE, -5, [980665.0, 1.0]),
     plain_unit("psi", PRESSURE, -5, [45359237.0 * 980665.0, 64516.0]),
     plain_unit("ksi", PRESSURE, -2, [45359237.0 * 980665.0, 64516.0]),
+    plain_unit("Msi", PRESSURE, 1, [45359237.0 * 980665.0, 64516.0]),
     plain_unit("atm", PRESSURE, 0, [101325.0, 1.0]),
     plain_unit("KiB", BYTES, 0, [1024.0, 1.0]),
     plain_unit("MiB", BYTES, 0, [1048576.0, 1.0]),
@@ -192,6 +201,7 @@ pub(crate) fn suggest_unit(symbol: &str) -> Option<String> {
         ("byte", "B"),
         ("percent", "%"),
         ("lbs", "lb"),
+        ("dyne", "dyn"),
     ];
     let lower = symbol.to_lowercase();
     let prefixed = PREFIXES.iter().flat_map(|(prefix, _)| {

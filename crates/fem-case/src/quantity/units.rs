@@ -312,6 +312,10 @@ mod tests {
             ("0 mm", 0.0),
             ("5 bar", 5e5),
             ("5 mbar", 500.0),
+            ("1.1e-9 t/mm^3", 1100.0),
+            ("1.1e-9 tonne/mm^3", 1100.0),
+            ("1.1 g/cc", 1100.0),
+            ("1e7 dyn/cm^2", 1e6),
         ] {
             assert_eq!(value(text), expected, "{text}");
         }
@@ -331,6 +335,11 @@ mod tests {
             ("1 min", 60.0),
             ("2 h", 7200.0),
             ("1 d", 86400.0),
+            ("1 Msi", 6894757293.168361),
+            ("100 fps", 30.48),
+            ("1 kgf/mm^2", 9806650.0),
+            ("1 lbm/in^3", 27679.90471020312),
+            ("1 lbf s^2/in^4", 10686895.178201316),
             ("1 atm", 101325.0),
             ("1 lb", 0.45359237),
             ("1 in^2", 6.4516e-4),
@@ -358,6 +367,7 @@ mod tests {
             ("63 gpa", "gpa", Some("GPa")),
             ("3 furlong", "furlong", None),
             ("3 meters", "meters", Some("m")),
+            ("3 dynes", "dynes", Some("dyn")),
             ("3 sec", "sec", Some("s")),
             ("5 kG", "kG", Some("kg")),
             ("5 cd", "cd", None),

@@ -1,12 +1,15 @@
 //! Plausibility checks: numbers of a scene that are possible but unlikely, such as after a forgotten unit, and losses that
 //! the materials do not include. They cause warnings; [`Case::check_units`] rejects such a number without a unit.
 
+use std::ops::RangeInclusive;
+
 use fem_material::Material;
 
 use crate::case::Case;
 use crate::engineering::{number, show};
 use crate::error::CaseError;
 use crate::library::{self, MeasuredRestitution};
+use crate::quantity::units::parse_quantity;
 use crate::scene::body::Body;
 use crate::scene::model::ModelChoice;
 use crate::scene::{Scene, UncertainInput};
@@ -19,14 +22,16 @@ const MAX_DIAMETER: f64 = 100.0;
 const LARGE: f64 = 1.0;
 const MAX_RATIO: f64 = 100.0;
 /// Plausible densities, kg/m³: aerogel has 1 to 100, osmium 22,590.
-const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
+const DENSITIES: RangeInclusive<f64> = 10.0..=25_000.0;
 /// Plausible Young's moduli, Pa: the softest gels have about 100 Pa, diamond has 1.2 TPa.
-const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
+const YOUNGS_MODULI: RangeInclusive<f64> = 100.0..=2e12;
 
-/// Moduli below this, Pa, are those of gels: a bare number was probably meant in GPa or MPa.
-const SMALL_MODULUS: f64 = 1e5;
+/// Plausible moduli of a bare number, Pa: those below are of gels, and were probably meant in GPa or MPa.
+const BARE_MODULI: RangeInclusive<f64> = 1e5..=2e12;
+/// Plausible speeds of a bare number, m/s: one faster than sound in air was probably meant in mm/s.
+const BARE_SPEEDS: RangeInclusive<f64> = 0.0..=340.0;
 /// Plausible yield strengths, Pa: soft waxes and greases have 10 kPa, diamond about 100 GPa.
-pub(crate) const YIELD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e4..=2e11;
+pub(crate) const YIELD_STRENGTHS: RangeInclusive<f64> = 1e4..=2e11;
 
 /// Share of the contact compliance, and so of the elastic energy, above which the loss of a body matters: of a twentieth of the
 /// energy solids lose little.
@@ -93,7 +98,7 @@ impl Scene {
 
     /// Returns one warning per number or uncertainty that is so unusual that a unit was probably forgotten.
     pub fn implausible_numbers(&self) -> Vec<String> {
-        let numbers = (0..2).flat_map(|side| self.implausible(side)).map(|found| found.message);
+        let numbers = (0..2).flat_map(|side| self.implausible(side));
         let is_large =
             |input: &&UncertainInput| input.value != 0.0 && input.uncertainty > input.value.abs();
         let spreads = self.inputs.iter().filter(is_large).map(|input| {
@@ -103,131 +108,131 @@ impl Scene {
         numbers.chain(spreads).collect()
     }
 
-    /// Returns the implausible numbers of a body.
-    fn implausible(&self, side: usize) -> Vec<Implausible> {
+    /// Returns a message per implausible number of a body.
+    fn implausible(&self, side: usize) -> Vec<String> {
         let mut found = Vec::new();
         let body = &self.bodies[side];
         let name = body.name();
-        let key = format!("body.{side}.sphere.diameter");
         let other = self.bodies[1 - side].diameter();
         if let Some(diameter) = body.diameter() {
             let others = other.filter(|other| diameter >= LARGE && diameter > MAX_RATIO * other);
             let others =
                 others.map(|other| format!(", that of the other body {}", show(other, "m")));
             if diameter > MAX_DIAMETER || others.is_some() {
-                found.push(Implausible {
-                    number: Number::Diameter,
-                    message: format!(
-                        "the diameter of {name} is {} ({key}){}; a bare number is in metres",
-                        show(diameter, "m"),
-                        others.unwrap_or_default()
-                    ),
-                });
+                found.push(format!(
+                    "the diameter of {name} is {} (body.{side}.sphere.diameter){}; a bare number is in metres",
+                    show(diameter, "m"),
+                    others.unwrap_or_default()
+                ));
             }
         }
         let Some(material) = body.material() else { return found };
         let density = material.density();
         if !DENSITIES.contains(&density) {
-            found.push(Implausible {
-                number: Number::Density,
-                message: format!(
-                    "the density of {name} is {} kg/m^3, but solids have 10 to 25000 kg/m^3; a number \
-                     without a unit is in kg/m^3",
-                    number(density, 5)
-                ),
-            });
+            found.push(format!(
+                "the density of {name} is {} kg/m^3, but solids have 10 to 25000 kg/m^3; a number \
+                 without a unit is in kg/m^3",
+                number(density, 5)
+            ));
         }
         let modulus = material.instantaneous().youngs_modulus();
         if !YOUNGS_MODULI.contains(&modulus) {
-            found.push(Implausible {
-                number: Number::Modulus,
-                message: format!(
-                    "Young's modulus of {name} is {}; solids have 100 Pa to 2 TPa, and a \
-                     bare number is in Pa",
-                    show(modulus, "Pa")
-                ),
-            });
+            found.push(format!(
+                "Young's modulus of {name} is {}; solids have 100 Pa to 2 TPa, and a \
+                 bare number is in Pa",
+                show(modulus, "Pa")
+            ));
         }
         if let Some(strength) = body.yield_strength().filter(|it| !YIELD_STRENGTHS.contains(it)) {
-            found.push(Implausible {
-                number: Number::YieldStrength,
-                message: format!(
-                    "the yield strength of {name} is {}; solids have 10 kPa to 200 GPa, and a bare number is in Pa",
-                    show(strength, "Pa")
-                ),
-            });
+            found.push(format!(
+                "the yield strength of {name} is {}; solids have 10 kPa to 200 GPa, and a bare number is in Pa",
+                show(strength, "Pa")
+            ));
         }
         found
     }
 }
 
-/// A number that is so unusual that a unit was probably forgotten.
-struct Implausible {
-    number: Number,
-    message: String,
-}
+/// Units that people use together, for each [`Unit`]: those of daily use, and then the consistent systems of finite-element decks
+/// in mm, t, s; in mm, g, ms; in mm, kg, ms; and in inches and pounds of force.
+const SYSTEMS: [[&str; 5]; 5] = [
+    ["mm", "mm/s", "g/cm^3", "GPa", "MPa"],
+    ["mm", "mm/s", "t/mm^3", "MPa", "MPa"],
+    ["mm", "m/s", "g/mm^3", "MPa", "MPa"],
+    ["mm", "m/s", "kg/mm^3", "GPa", "GPa"],
+    ["in", "in/s", "lbf s^2/in^4", "psi", "psi"],
+];
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Number {
-    Diameter,
-    PlateThickness,
-    PlateDiameter,
+/// A kind of number, as an index of a system of units.
+#[derive(Clone, Copy)]
+enum Unit {
+    Length,
+    Speed,
     Density,
     Modulus,
-    YieldStrength,
-    HardeningModulus,
+    Strength,
 }
 
-impl Number {
-    /// Returns the unit, and the keys of the body or material that may have given the number.
-    fn keys(self) -> (&'static str, &'static [&'static str]) {
+impl Unit {
+    /// Returns the SI unit, and the values that a bare number may have.
+    fn bare(self) -> (&'static str, RangeInclusive<f64>) {
         match self {
-            Self::Diameter => ("m", &["sphere.diameter"]),
-            Self::PlateThickness => ("m", &["plate.thickness"]),
-            Self::PlateDiameter => ("m", &["plate.diameter"]),
-            Self::Density => ("kg/m^3", &["density"]),
-            Self::Modulus => ("Pa", &["youngs_modulus", "shear_modulus", "bulk_modulus"]),
-            Self::YieldStrength => {
-                ("Pa", &["yield_strength", "flow.yield_strength", "flow.hardening.table.0.1"])
-            }
-            Self::HardeningModulus => ("Pa", &["flow.hardening.modulus"]),
+            Self::Length => ("m", 0.0..=LARGE.next_down()),
+            Self::Speed => ("m/s", BARE_SPEEDS),
+            Self::Density => ("kg/m^3", DENSITIES),
+            Self::Modulus => ("Pa", BARE_MODULI),
+            Self::Strength => ("Pa", YIELD_STRENGTHS),
         }
     }
 }
 
 impl Case {
-    /// Rejects implausible numbers that the file or an override gives without a unit, bare sizes of 1 m and more, and bare
-    /// moduli below 0.1 MPa.
+    /// Rejects implausible numbers that the file gives without a unit, bare sizes of 1 m and more, bare moduli below 0.1 MPa
+    /// and bare speeds above that of sound. If the bare numbers of a file are plausible in one system of units, all of them
+    /// need their units. Overrides are checked as well if they are not `in_code`, where bare numbers are SI.
     ///
     /// # Errors
     /// All such numbers, each with its place. With a unit the same number is only warned of.
-    pub fn check_units(&self) -> Result<(), CaseError> {
-        let mut faults = Vec::new();
-        for Unusual { side, message, path, unit } in self.unusual_numbers() {
-            let key = path.iter().fold(String::new(), |key, part| join(&key, &quote_key(part)));
-            let text = self.document.value_text(&key);
-            let Ok(bare) = text.trim_matches(['"', '\'']).trim().parse::<f64>() else { continue };
-            let is_known = faults.iter().any(|(_, known)| *known == key);
-            if !is_known {
-                let last = path.iter().rfind(|part| part.parse::<usize>().is_err());
-                let last = last.map_or("", |last| last);
-                let intended = match (unit, last) {
-                    ("m", _) => "mm",
-                    ("Pa", "yield_strength" | "table") => "MPa",
-                    ("Pa", _) => "GPa",
-                    _ => "g/cm^3",
-                };
-                // The point of a table has no key.
-                let equals = if last == "table" { String::new() } else { format!("{last} = ") };
-                let fault = self.error_at(&key, message).with_help(format!(
-                    "write the unit: {equals}\"{bare} {intended}\", or {equals}\"{bare} {unit}\" if {} is so",
-                    self.scene.bodies[side].name()
-                ));
-                faults.push((fault, key));
+    pub fn check_units(&self, in_code: bool) -> Result<(), CaseError> {
+        let mut bare: Vec<BareNumber> = Vec::new();
+        for number in self.numbers() {
+            let key = number.path.iter().fold(String::new(), |key, it| join(&key, &quote_key(it)));
+            let text = self.document.value_text(&key).trim_matches(['"', '\'']).trim();
+            let is_bare = text.parse::<f64>().is_ok_and(|value| value != 0.0);
+            let is_checked = !in_code || self.document.turn_of(&key) == 0;
+            if is_bare && is_checked && bare.iter().all(|known| known.key != key) {
+                let text = text.to_string();
+                bare.push(BareNumber { number, key, text });
             }
         }
-        let faults = faults.into_iter().map(|(fault, _)| fault).collect();
-        CaseError::joined(faults).map_or(Ok(()), Err)
+        let first = &SYSTEMS[0];
+        let suits = |system: &&[&str; 5], all: bool| {
+            let mut numbers = bare.iter().filter(|it| all || it.number.is_unusual());
+            numbers.all(|it| it.is_plausible_in(system))
+        };
+        let deck = SYSTEMS[1..].iter().find(|system| suits(system, true));
+        let deck = deck.filter(|_| !suits(&first, false));
+        let system =
+            deck.or_else(|| SYSTEMS.iter().find(|system| suits(system, false))).unwrap_or(first);
+        let faults = bare.iter().filter(|it| deck.is_some() || it.number.is_unusual());
+        let faults = faults.map(|BareNumber { number, key, text }| {
+            let Number { side, what, unit, value, path } = number;
+            let (name, intended) = (self.scene.bodies[*side].name(), system[*unit as usize]);
+            let value = match unit {
+                Unit::Density => format!("{} kg/m^3", crate::engineering::number(*value, 5)),
+                _ => show(*value, unit.bare().0),
+            };
+            let unit = unit.bare().0;
+            let message = format!("{what} of {name} is {value}: a bare number is in {unit}");
+            let last = path.iter().rfind(|part| part.parse::<usize>().is_err());
+            // The point of a table has no key.
+            let last = last.filter(|last| *last != "table");
+            let equals = last.map(|last| format!("{last} = ")).unwrap_or_default();
+            self.error_at(key, message).with_help(format!(
+                "write the unit: {equals}\"{text} {intended}\", or {equals}\"{text} {unit}\" if {name} is so"
+            ))
+        });
+        CaseError::joined(faults.collect()).map_or(Ok(()), Err)
     }
 
     /// Returns this case in another form, such as the resolved one, as TOML ([`CaseFile::to_toml`]). Its unusual numbers have
@@ -237,87 +242,93 @@ impl Case {
     /// Those of [`CaseFile::to_toml`].
     pub fn toml_of(&self, file: &CaseFile) -> Result<String, toml::ser::Error> {
         let mut tree = toml::Value::try_from(file)?;
-        for Unusual { path, unit, .. } in self.unusual_numbers() {
+        for Number { path, unit, .. } in self.numbers().filter(Number::is_unusual) {
             let number = path.iter().try_fold(&mut tree, |value, part| match value {
                 toml::Value::Table(table) => table.get_mut(part),
                 toml::Value::Array(array) => array.get_mut(part.parse::<usize>().ok()?),
                 _ => None,
             });
             if let Some(number) = number.filter(|number| number.is_float()) {
-                *number = toml::Value::String(format!("{number} {unit}"));
+                *number = toml::Value::String(format!("{number} {}", unit.bare().0));
             }
         }
         toml::to_string(&tree)
     }
 
-    /// Returns the numbers that need a unit to be accepted, each with the keys that may have given it.
-    fn unusual_numbers(&self) -> Vec<Unusual> {
-        let mut all = Vec::new();
-        for side in 0..2 {
+    /// Returns the numbers of both bodies that need a unit if they are unusual, each with the keys that may have given it.
+    fn numbers(&self) -> impl Iterator<Item = Number> {
+        (0..2).flat_map(|side| {
+            let body = &self.scene.bodies[side];
+            let plate = body.plate();
             let material = self.file.body[side].material.as_deref().unwrap_or_default();
-            let mut found = self.scene.implausible(side);
-            for bare in self.doubtful_if_bare(side, material) {
-                if found.iter().all(|told| told.number != bare.number) {
-                    found.push(bare);
-                }
-            }
-            for Implausible { number, message } in found {
-                let (unit, keys) = number.keys();
-                let place = match unit {
-                    "m" => ["body".to_string(), side.to_string()],
-                    _ => ["material".to_string(), material.to_string()],
-                };
-                all.extend(keys.iter().map(|keys| {
-                    let path = keys.split('.').map(str::to_string);
-                    let path = place.iter().cloned().chain(path).collect();
-                    Unusual { side, message: message.clone(), path, unit }
-                }));
-            }
-        }
-        all
-    }
-
-    /// Returns the numbers of a body that are doubtful without a unit.
-    fn doubtful_if_bare(&self, side: usize, material: &str) -> impl Iterator<Item = Implausible> {
-        let body = &self.scene.bodies[side];
-        let plate = body.plate();
-        let modulus = body.material().map(|it| it.instantaneous().youngs_modulus());
-        let hardening =
-            self.file.material.get(material).and_then(|table| {
+            let modulus = body.material().map(|it| it.instantaneous().youngs_modulus());
+            let hardening = self.file.material.get(material).and_then(|table| {
                 table.flow.as_ref()?.hardening.as_ref()?.modulus.as_ref()?.si().ok()
             });
-        let large = |size: &f64| *size >= LARGE;
-        let small = |modulus: &f64| *modulus > 0.0 && *modulus < SMALL_MODULUS;
-        let numbers = [
-            (Number::Diameter, "the diameter", "m", body.diameter().filter(large)),
-            (
-                Number::PlateThickness,
-                "the thickness",
-                "m",
-                plate.map(|it| it.thickness).filter(large),
-            ),
-            (
-                Number::PlateDiameter,
-                "the diameter",
-                "m",
-                plate.and_then(|it| it.diameter).filter(large),
-            ),
-            (Number::Modulus, "Young's modulus", "Pa", modulus.filter(small)),
-            (Number::HardeningModulus, "the hardening modulus", "Pa", hardening.filter(small)),
-        ];
-        numbers.into_iter().filter_map(|(number, what, unit, value)| {
-            let message = format!("{what} of {} is {}", body.name(), show(value?, unit));
-            Some(Implausible { number, message })
+            let density = body.material().map(Material::density);
+            let of_plate = plate.and_then(|it| it.diameter);
+            let speed = self.file.body[side].approach_speed.as_ref().and_then(|it| it.si().ok());
+            let moduli = ["youngs_modulus", "shear_modulus", "bulk_modulus"];
+            let strengths = ["yield_strength", "flow.yield_strength", "flow.hardening.table.0.1"];
+            let numbers: [(_, _, _, &[&str]); 8] = [
+                ("the diameter", Unit::Length, body.diameter(), &["sphere.diameter"]),
+                ("the thickness", Unit::Length, plate.map(|it| it.thickness), &["plate.thickness"]),
+                ("the diameter", Unit::Length, of_plate, &["plate.diameter"]),
+                ("the approach speed", Unit::Speed, speed, &["approach_speed"]),
+                ("the density", Unit::Density, density, &["density"]),
+                ("Young's modulus", Unit::Modulus, modulus, &moduli),
+                ("the yield strength", Unit::Strength, body.yield_strength(), &strengths),
+                ("the hardening modulus", Unit::Modulus, hardening, &["flow.hardening.modulus"]),
+            ];
+            let place = |unit| match unit {
+                Unit::Length | Unit::Speed => ["body".to_string(), side.to_string()],
+                _ => ["material".to_string(), material.to_string()],
+            };
+            let number = |what, unit, value: Option<f64>, key: &str| {
+                let key = key.split('.').map(str::to_string);
+                let path = place(unit).into_iter().chain(key).collect();
+                value.map(|value| Number { side, what, unit, value: value.abs(), path })
+            };
+            let numbers = numbers.into_iter().flat_map(|(what, unit, value, keys)| {
+                keys.iter().filter_map(move |key| number(what, unit, value, key))
+            });
+            numbers.collect::<Vec<_>>()
         })
     }
 }
 
-/// A number that needs a unit to be accepted.
-struct Unusual {
+/// A number of a body that needs its unit if it is unusual.
+struct Number {
     /// Side of the body that has it.
     side: usize,
-    message: String,
+    what: &'static str,
+    unit: Unit,
+    /// Its absolute value, SI.
+    value: f64,
     /// The keys and indices that lead to it in the case.
     path: Vec<String>,
-    unit: &'static str,
+}
+
+impl Number {
+    /// Returns whether the number would be implausible without its unit. A modulus or size of 0 is what a body lacks.
+    fn is_unusual(&self) -> bool {
+        self.value != 0.0 && !self.unit.bare().1.contains(&self.value)
+    }
+}
+
+/// A number that the case gives without a unit.
+struct BareNumber {
+    number: Number,
+    key: String,
+    /// The number as it is written.
+    text: String,
+}
+
+impl BareNumber {
+    /// Returns whether the number as it is written is plausible in the unit of a system.
+    fn is_plausible_in(&self, system: &[&str; 5]) -> bool {
+        let unit = self.number.unit;
+        let value = parse_quantity(&format!("{} {}", self.text, system[unit as usize]));
+        value.is_ok_and(|(value, _)| unit.bare().1.contains(&value.abs()))
+    }
 }

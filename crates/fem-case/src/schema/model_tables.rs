@@ -288,15 +288,16 @@ mod tests {
         }
     }
 
-    /// Every key belongs to exactly one set of keys, and every set is of keys that the law has.
+    /// Every key belongs to a set of keys, and every set is of keys that the law has.
     #[test]
-    fn law_key_sets_contain_every_key_of_the_law_once() {
+    fn law_key_sets_contain_every_key_of_the_law() {
         for family in LawFamily::ALL {
             let keys = LawTable::KEYS.iter().filter(|key| key.family == family);
             let keys: Vec<_> = keys.map(|key| key.key).collect();
             let sets = family.key_sets().iter().flat_map(|set| set.iter().map(|(key, _)| *key));
             let mut sets: Vec<_> = sets.collect();
             sets.sort_by_key(|key| keys.iter().position(|own| own == key));
+            sets.dedup();
             assert_eq!(sets, keys, "{family:?}");
         }
     }

@@ -116,6 +116,11 @@ impl Document {
         self.origins.get(path).is_some()
     }
 
+    /// Returns the paths of all keys that the case gives.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &str> {
+        self.origins.paths()
+    }
+
     /// Returns the paths of all arrays in the texts.
     pub(crate) fn arrays(&self) -> &[String] {
         self.origins.arrays()
@@ -124,15 +129,19 @@ impl Document {
     /// Returns the one to blame of several keys that contradict each other: the first of those that the last edit, or
     /// else the last override, gave; or else `default`.
     pub(crate) fn blamed<'p>(&self, default: &'p str, others: &[&'p str]) -> &'p str {
-        let turn_of = |path: &str| match self.origins.get(path) {
+        let later = |best: &'p str, other: &&'p str| {
+            if self.turn_of(other) > self.turn_of(best) { other } else { best }
+        };
+        others.iter().fold(default, later)
+    }
+
+    /// Returns the turn of the override or edit that gave a value, 0 for the file itself.
+    pub(crate) fn turn_of(&self, path: &str) -> usize {
+        match self.origins.get(path) {
             Some(KeyOrigin::Text { value, .. }) => self.sources[self.source_at(value.start)].turn,
             Some(KeyOrigin::Code { edit }) => self.sources.len() + edit,
             None => 0,
-        };
-        let later = |best: &'p str, other: &&'p str| {
-            if turn_of(other) > turn_of(best) { other } else { best }
-        };
-        others.iter().fold(default, later)
+        }
     }
 
     /// Creates an error that points at the value of the key at `path`, or, if it is absent, at the nearest table

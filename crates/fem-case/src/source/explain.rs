@@ -5,11 +5,11 @@ use std::ops::Range;
 use toml::de::Error;
 
 use crate::error::CaseError;
-use crate::schema::HardeningTable;
 use crate::schema::choices::choice_at;
+use crate::schema::{CaseFile, HardeningTable};
 use crate::source::document::Document;
 use crate::source::similar_words::nearest;
-use crate::source::toml_syntax::first_line;
+use crate::source::toml_syntax::{first_line, join, quote_key};
 use crate::sweep::values::split_unit;
 
 /// Examples of required keys.
@@ -33,10 +33,54 @@ const EXAMPLES: &[(&str, &str)] = &[
 ];
 
 /// The tables and keys of a case outside of all tables.
-const KEYS_OF_CASE: [&str; 14] = [
-    "title", "material", "body", "start", "gravity", "stop", "mesh", "contact", "time", "output",
-    "model", "accuracy", "effects", "limits",
+const KEYS_OF_CASE: [&str; 15] = [
+    "title", "scene", "material", "body", "start", "gravity", "stop", "mesh", "contact", "time",
+    "output", "model", "accuracy", "effects", "limits",
 ];
+
+/// Tables of bodies and materials: the path, and the TOML before one of their keys.
+const INNER_TABLES: [(&str, &str); 6] = [
+    ("body.0", "[[body]]\n"),
+    ("body.0.sphere", "[[body]]\nsphere."),
+    ("body.0.plate", "[[body]]\nplate."),
+    ("material.NAME", "material.m."),
+    ("material.NAME.flow", "material.m.flow."),
+    ("material.NAME.relaxation", "material.m.relaxation."),
+];
+
+/// Returns the paths at which a case gives a key that it has at `path` by mistake, or else the table to which the key belongs.
+fn elsewhere(document: &Document, path: &str, key: &str) -> Vec<String> {
+    let ending = format!(".{}", quote_key(key));
+    let given = |table: &str| -> Vec<String> {
+        let below = join(path, "");
+        let is_other = |it: &&str| it.starts_with(table) && *it != path && !it.starts_with(&below);
+        let all = document.paths().filter(|it| it.ends_with(&ending)).filter(is_other);
+        all.take(2).map(str::to_string).collect()
+    };
+    let own = path.rfind('.').map_or_else(Vec::new, |dot| given(&path[..=dot]));
+    let given = if own.is_empty() { given("") } else { own };
+    if !given.is_empty() || !document.has("body") {
+        return given;
+    }
+    // The type of the value is wrong for any key that the table has.
+    let has_key = |before: &str| {
+        let read: Result<CaseFile, _> = toml::from_str(&format!("{before}{} = []", &ending[1..]));
+        read.err().is_none_or(|error| {
+            let message = error.message();
+            !message.starts_with("unknown ") && !message.starts_with("invalid type: map")
+        })
+    };
+    let outer = KEYS_OF_CASE.map(|table| (table, format!("{table}.")));
+    let outer = outer.iter().filter(|(table, _)| !["material", "body"].contains(table));
+    let outer = outer.map(|(table, before)| (*table, before.as_str()));
+    let found = INNER_TABLES.into_iter().chain(outer).find(|(_, before)| has_key(before));
+    let name = |table: &str| {
+        let names = ["body.0.material", "body.1.material"].map(|key| document.value_text(key));
+        let name = names.into_iter().find(|name| !name.is_empty()).unwrap_or("NAME");
+        table.replace("NAME", &quote_key(name.trim_matches(['"', '\''])))
+    };
+    found.map(|(table, _)| join(&name(table), &ending[1..])).into_iter().collect()
+}
 
 /// Returns what a key means that this table does not have, but which many write: `table` is its path, `value` its text.
 fn hint(table: &str, key: &str, value: &str) -> Option<String> {
@@ -82,8 +126,23 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
                 .into(),
         ),
         "mass" if ["body", "material"].contains(&first) => Some(
-            "the mass follows from the diameter and the density of the material: remove the key".into(),
+            "the mass follows from the diameter and the density of the material: remove the key; nearest to a striker \
+             that is heavier than its tip: a material of its own with the mean density"
+                .into(),
         ),
+        "thickness" | "wall_thickness" | "shell_thickness" | "inner_diameter" | "inner_radius" | "hollow"
+            if first == "body" && !inner.ends_with(".plate") => Some(
+            "hollow balls are not computed; nearest: a solid one of the mean density, with measured numbers in the law \
+             of [model], such as law = { linear = { k = \"20 kN/m\", e = 0.9 } }"
+                .into(),
+        ),
+        "support" if ["clamped", "fixed", "simply_supported", "hinged"].contains(&value.trim_matches(['"', '\''])) => {
+            Some(
+                "the edge of a plate is free, no other one is computed; nearest: a plate without diameter and support, \
+                 which is right as long as no wave returns from the edge"
+                    .into(),
+            )
+        }
         "E" | "e_modulus" | "elastic_modulus" | "modulus" | "stiffness" if first == "material" => {
             Some(format!("the key is youngs_modulus = {value}"))
         }
@@ -112,7 +171,9 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     } else if let Some(rest) = message.strip_prefix("unknown variant ") {
         let (found, allowed) = split_backticked(rest);
         let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
-        let help = format!("{}write one of {}", near(found, &allowed), quoted.join(", "));
+        let words = || format!("{}write one of {}", near(found, &allowed), quoted.join(", "));
+        let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+        let help = hint(table, key, document.text_on(&fault.span)).unwrap_or_else(words);
         fault.error(format!("{path} is \"{found}\", which is not allowed")).with_help(help)
     } else if let Some((found, wanted)) = expected("invalid type: ") {
         fault.wrong_type(found, wanted)
@@ -145,7 +206,20 @@ impl Fault<'_> {
         if table.ends_with(".flow.hardening") {
             allowed.retain(|key| !HardeningTable::NAMES.contains(key));
         }
-        let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
+        let keys = || {
+            let near = near(found, &allowed);
+            let meant = match found {
+                "velocity" | "speed" | "initial_velocity" | "impact_speed" => "approach_speed",
+                _ => found,
+            };
+            let near = match elsewhere(self.document, self.path, meant).join("` or `") {
+                other if near.is_empty() && !other.is_empty() => {
+                    format!("did you mean `{other}`? ")
+                }
+                _ => near,
+            };
+            format!("{near}the keys here are {}", allowed.join(", "))
+        };
         let help = match (table, found) {
             _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
             ("", _) if allowed.contains(&"vary") && self.document.has("body") => {
@@ -210,7 +284,12 @@ fn unused_material(document: &Document, name: &str) -> Option<String> {
     names.retain(|text| !text.is_empty());
     names.dedup();
     let is_used = names.is_empty() || names.contains(&name.trim_matches(['"', '\'']));
-    (!is_used).then(|| format!("no body is of this material: they are of {}", names.join(" and ")))
+    let tables = names.iter().map(|name| format!("[material.{}]", quote_key(name)));
+    let tables = tables.collect::<Vec<_>>().join(" or ");
+    (!is_used).then(|| {
+        let names = names.join(" and ");
+        format!("no body is of this material: they are of {names}, whose keys are in {tables}")
+    })
 }
 
 /// Returns `did you mean …? ` if one of the allowed words is similar.

@@ -79,6 +79,11 @@ impl KeyOrigins {
         )
     }
 
+    /// Returns the paths of all keys.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &str> {
+        self.by_path.keys().map(String::as_str)
+    }
+
     /// Returns the paths of all arrays in the texts.
     pub(crate) fn arrays(&self) -> &[String] {
         &self.arrays

@@ -13,7 +13,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
 use crate::schema::choices::choice_at;
-use crate::source::toml_syntax::{first_line, is_bare, shift};
+use crate::source::toml_syntax::{first_line, is_bare, quote_key, shift};
 
 /// The largest number of parts of a key, more than any key of a case has: it limits recursion over the tree.
 const DEEPEST_PATH: usize = 32;
@@ -170,8 +170,8 @@ pub(crate) fn apply<'t>(
     };
     drop_alternatives(root, &path);
     let mut place = Place::Table(root);
-    for part in parents {
-        let child = match place.child(part)? {
+    for (index, part) in parents.iter().enumerate() {
+        let child = match place.child(&path, index)? {
             Child::Value(value) => value,
             Child::Absent(entry) => {
                 entry.insert(Spanned::new(part.span(), DeValue::Table(DeTable::new())))
@@ -183,7 +183,7 @@ pub(crate) fn apply<'t>(
         // An insertion over an old key would keep that key's position in the file.
         table.remove(last.get_ref().as_str());
     }
-    match place.child(last)? {
+    match place.child(&path, parents.len())? {
         Child::Value(old) => *old = value,
         Child::Absent(entry) => {
             entry.insert(value);
@@ -200,7 +200,7 @@ pub(crate) fn repair<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<
     let mut span = 0..0;
     for part in parents {
         let part = Spanned::new(span.clone(), part.clone());
-        let Ok(Child::Value(child)) = place.child(&part) else { return };
+        let Ok(Child::Value(child)) = place.child(std::slice::from_ref(&part), 0) else { return };
         span = child.span();
         let Ok(inner) = Place::of(child, &part) else { return };
         place = inner;
@@ -289,6 +289,26 @@ enum Child<'a, 't> {
     Absent(VacantEntry<'a, Spanned<DeString<'t>>, Spanned<DeValue<'t>>>),
 }
 
+/// Returns `did you mean …? ` for a part of a path that is no index of an array: the index of the table that has it as its
+/// name, or else before it the index of a table that has this key.
+fn meant_path(array: &[Spanned<DeValue<'_>>], path: &[Spanned<String>], part: usize) -> String {
+    let mut parts: Vec<_> = path.iter().map(|part| quote_key(part.get_ref())).collect();
+    let key = path[part].get_ref().as_str();
+    let position = |is: &dyn Fn(&DeTable<'_>) -> bool| {
+        let is_it = |value: &Spanned<DeValue<'_>>| value.get_ref().as_table().is_some_and(is);
+        array.iter().position(is_it)
+    };
+    let named = |table: &DeTable<'_>| Some(table.get("name")?.get_ref().as_str()? == key);
+    match position(&|table| named(table) == Some(true)) {
+        Some(index) => parts[part] = index.to_string(),
+        None => {
+            let index = position(&|table| table.contains_key(key)).unwrap_or_default();
+            parts.insert(part, index.to_string());
+        }
+    }
+    format!("did you mean `{}`? ", parts.join("."))
+}
+
 impl<'a, 't> Place<'a, 't> {
     fn of(
         value: &'a mut Spanned<DeValue<'t>>,
@@ -305,7 +325,9 @@ impl<'a, 't> Place<'a, 't> {
         }
     }
 
-    fn child(self, part: &Spanned<String>) -> Result<Child<'a, 't>, OverrideError> {
+    /// Returns the value at the part of this index in a path.
+    fn child(self, path: &[Spanned<String>], index: usize) -> Result<Child<'a, 't>, OverrideError> {
+        let part = &path[index];
         let key = part.get_ref();
         match self {
             Place::Table(table) => {
@@ -317,17 +339,22 @@ impl<'a, 't> Place<'a, 't> {
             Place::Array(array) => {
                 let length = array.len();
                 let is_number = key.bytes().all(|byte| byte.is_ascii_digit());
-                let index = key.parse::<usize>().ok().filter(|_| is_number);
-                match index.and_then(|index| array.get_mut(index)) {
+                let indices = match length {
+                    0 => "it is empty; replace the whole array".to_string(),
+                    1 => "its only index is 0".to_string(),
+                    _ => format!("its indices are 0 to {}", length - 1),
+                };
+                let meant = match is_number {
+                    true => String::new(),
+                    false => meant_path(array, path, index),
+                };
+                let number = key.parse::<usize>().ok().filter(|_| is_number);
+                match number.and_then(|number| array.get_mut(number)) {
                     Some(value) => Ok(Child::Value(value)),
                     None => Err(OverrideError {
                         span: part.span(),
                         message: format!("`{key}` is not an index of this array of {length}"),
-                        help: match length {
-                            0 => "it is empty; replace the whole array".to_string(),
-                            1 => "its only index is 0".to_string(),
-                            _ => format!("its indices are 0 to {}", length - 1),
-                        },
+                        help: meant + &indices,
                     }),
                 }
             }

@@ -187,27 +187,32 @@ impl Check<'_> {
     ) -> Result<LawInput, CaseError> {
         let sets = family.key_sets();
         let is_in = |set: &KeySet, key: &str| set.iter().any(|(own, _)| *own == key);
-        // The first key given of each set of which one is given.
-        let firsts: Vec<_> = sets
-            .iter()
-            .filter_map(|set| Some((set, given.iter().find(|(key, _)| is_in(set, key))?.0)))
-            .collect();
-        let set = match *firsts.as_slice() {
-            [] => sets.iter().find(|set| set.is_empty()).or(sets.first()).copied().unwrap_or(&[]),
-            [(set, _)] => set,
-            [(_, first), (_, second), ..] => {
-                let others: Vec<_> = given.iter().map(|(key, _)| join(path, key)).collect();
-                let others: Vec<_> = others.iter().map(String::as_str).collect();
-                let message = format!("both {first} and {second} are given");
-                let error = self.conflict(&join(path, second), &others, message);
-                let words = sets
-                    .iter()
-                    .filter(|set| !set.is_empty())
-                    .map(|set| listed(&set.iter().map(|(key, _)| *key).collect::<Vec<_>>()));
-                let words = words.collect::<Vec<_>>().join(", or ");
-                return Err(error.with_help(format!("give {words}")));
-            }
+        let with = |keys: &[(&str, f64)]| {
+            let holds = |set: &&KeySet| keys.iter().all(|(key, _)| is_in(set, key));
+            sets.iter().filter(holds).collect::<Vec<_>>()
         };
+        let pairs = given
+            .iter()
+            .enumerate()
+            .flat_map(|(n, second)| given[..n].iter().map(move |first| [*first, *second]));
+        if let Some([(first, _), (second, _)]) = pairs.into_iter().find(|it| with(it).is_empty()) {
+            let others: Vec<_> = given.iter().map(|(key, _)| join(path, key)).collect();
+            let others: Vec<_> = others.iter().map(String::as_str).collect();
+            let message = format!("both {first} and {second} are given");
+            let error = self.conflict(&join(path, second), &others, message);
+            let words = sets
+                .iter()
+                .filter(|set| !set.is_empty())
+                .map(|set| listed(&set.iter().map(|(key, _)| *key).collect::<Vec<_>>()));
+            let words = words.collect::<Vec<_>>().join(", or ");
+            return Err(error.with_help(format!("give {words}")));
+        }
+        // The one that lacks the fewest keys.
+        let missing = |set: &&KeySet| {
+            let required = set.iter().filter(|(_, need)| *need == KeyNeed::Required);
+            required.filter(|(key, _)| given.iter().all(|(own, _)| own != key)).count()
+        };
+        let set = with(&given).into_iter().min_by_key(missing).copied().unwrap_or(&[]);
         let value = |key: &str| given.iter().find(|(own, _)| *own == key).map(|(_, value)| *value);
         let mut values = Vec::new();
         for &(key, need) in set {

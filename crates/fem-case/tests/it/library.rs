@@ -127,18 +127,47 @@ fn an_unknown_name_lists_the_library() {
     let text = error.to_string();
     assert!(text.contains("did you mean `lib:pmma`?"), "{text}");
     assert!(text.contains("lib:alumina, lib:aluminium"), "{text}");
-    for (name, expected) in [
-        ("acrylic", "pmma"),
-        ("Plexiglass", "pmma"),
-        ("PDMS", "silicone"),
-        ("100Cr6", "bearing-steel"),
-    ] {
+    for (name, expected) in [("acryl", "pmma"), ("plexi", "pmma"), ("rubbr", "natural-rubber")] {
         let message = fault(&[&format!("body.1.material='lib:{name}'")]);
         assert!(message.contains(&format!("did you mean `lib:{expected}`?")), "{message}");
     }
     assert!(fault(&["body.1.material='lib:'"]).contains("the library has"));
     assert!(fault(&["material=3"]).contains("material"));
     assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));
+}
+
+/// Names as people type them, for a body, for its table, and for both bodies in two spellings.
+#[test]
+fn other_names_of_materials_are_known() {
+    let name_of = |overrides: &[&str]| {
+        let case = parse(BALL, overrides).unwrap();
+        let density = case.scene().bodies()[1].material().unwrap().density();
+        (case.file().body[1].material.clone().unwrap(), density)
+    };
+    for (name, own, density) in [
+        ("PMMA", "lib:pmma", 1190.0),
+        ("Plexiglass", "lib:pmma", 1190.0),
+        ("silica", "lib:fused-silica", 2200.0),
+        ("Fused Silica", "lib:fused-silica", 2200.0),
+        ("PDMS", "lib:silicone", 1030.0),
+        ("100Cr6", "lib:bearing-steel", 7900.0),
+    ] {
+        let body = format!("body.1.material='lib:{name}'");
+        assert_eq!(name_of(&[&body]), (own.to_string(), density));
+        let table = format!("material.'lib:{name}'.density=1000");
+        assert_eq!(name_of(&[&body, &table]), (own.to_string(), 1000.0));
+        let ball = BodyTable::sphere("ball", 0.01, format!("lib:{name}")).approaching(1.0);
+        let made = Case::of(CaseFile::of_bodies(BodyTable::wall("floor"), ball)).unwrap();
+        assert_eq!(made.scene().bodies()[1].material().unwrap().density(), density);
+    }
+    let both = ["body.0={name='a', sphere.diameter=0.01, material='lib:Perspex'}"];
+    assert_eq!(name_of(&both).0, "lib:pmma");
+    let names = materials().iter().flat_map(|(name, entry)| [name].into_iter().chain(&entry.names));
+    let mut names: Vec<String> = names.map(|name| name.to_lowercase()).collect();
+    names.sort();
+    let n = names.len();
+    names.dedup();
+    assert_eq!(names.len(), n, "two materials have one name");
 }
 
 /// The loss of a material is unknown for each way to use one without a relaxation, unless it is meant to be elastic, a contact

@@ -220,3 +220,33 @@ fn a_fault_of_the_file_still_points_into_the_file() {
     assert_eq!(error.source_name(), "pair.toml");
     assert_eq!((error.line(), error.column()), (Some(3), Some(11)));
 }
+
+/// A key in the wrong table, a body by its name or without its index, and a table of a material that no body is of.
+#[test]
+fn a_misplaced_key_is_answered_with_its_path() {
+    for (text, meant) in [
+        ("approach_speed=2", "did you mean `body.0.approach_speed`?"),
+        ("speed=2", "did you mean `body.0.approach_speed`?"),
+        ("diameter=2", "did you mean `body.0.sphere.diameter` or `body.1.sphere.diameter`?"),
+        ("body.1.diameter=2", "did you mean `body.1.sphere.diameter`?"),
+        ("sphere.diameter=2", "did you mean `body.0.sphere` or `body.1.sphere`?"),
+        ("body.target.sphere.diameter=2", "did you mean `body.1.sphere.diameter`?"),
+        ("body.approach_speed=2", "did you mean `body.0.approach_speed`?"),
+        ("temperature='30 degC'", "did you mean `scene.temperature`?"),
+        ("tolerance=0.1", "did you mean `accuracy.tolerance`?"),
+        ("relaxation.terms=[]", "did you mean `material.glass.relaxation`?"),
+        ("thickness=1", "did you mean `body.0.plate.thickness`?"),
+        ("nonsense=1", "the keys here are title"),
+        ("material.steel.flow={}", "they are of glass, whose keys are in [material.glass]"),
+    ] {
+        let error = with(&[text]).map(|_| ()).unwrap_err();
+        assert!(error.help().unwrap().contains(meant), "{error}");
+    }
+    let of_library = "body.0.material='lib:glass'";
+    let own = with(&[of_library, "material.glas.flow={}", "body.1.material='lib:glass'"]);
+    let message = own.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        message.contains(r#"of lib:glass, whose keys are in [material."lib:glass"]"#),
+        "{message}"
+    );
+}

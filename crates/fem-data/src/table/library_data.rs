@@ -1,6 +1,6 @@
 //! Measured restitutions of the materials library as a table: `lib:ice`, or `lib:ice/hatzes-1988` for one of several.
 
-use fem_case::library::{MeasuredRestitution, materials, nearest_to};
+use fem_case::library::{MeasuredRestitution, find, materials, nearest_to};
 
 use super::csv_table::Table;
 use super::data_error::DataError;
@@ -28,7 +28,8 @@ pub fn is_of_library(name: &str) -> bool {
 pub fn library_table(name: &str) -> Result<(Table, String), DataError> {
     let bare = name.strip_prefix(PREFIX).unwrap_or(name);
     let (material, wanted) = bare.split_once('/').map_or((bare, None), |(m, w)| (m, Some(w)));
-    let all = materials().get(material).map_or(&[][..], |entry| &entry.measured);
+    let (material, all) =
+        find(material).map_or((material, &[][..]), |(known, entry)| (known, &entry.measured[..]));
     let is_wanted = |it: &&MeasuredRestitution| wanted.is_none_or(|wanted| it.name == wanted);
     let Some(found) = all.iter().find(is_wanted) else {
         return Err(unknown(name, material, all));

@@ -14,7 +14,13 @@
 //!
 //! (for ζ > 1 the second continues with φ/√(1−ζ²) → arcosh ζ/√(ζ²−1), the first has no end). Limits:
 //! both T and e are independent of speed, which no pair of spheres shows; a force jumps to C v at
-//! first touch.
+//! first touch. For a stiffness and a restitution, C = 2 ζ √(m\* K): at zero overlap
+//!
+//! ```math
+//! C = \frac{-2\ln e\,\sqrt{m^*K}}{\sqrt{\pi^2+\ln^2 e}}
+//! ```
+//!
+//! (Kawaguchi, Tanaka & Tsuji 1992, as the manual of PFC derives it: "Calibrating the Normal Critical Damping Ratio").
 
 use std::f64::consts::PI;
 
@@ -55,6 +61,21 @@ pub fn linear_from_restitution(
     linear(mass * frequency * frequency, 2.0 * ratio * mass * frequency)
 }
 
+/// Returns the damping C, N s/m, of a stiffness, N/m, that gives a restitution in (0, 1] under the end rule.
+///
+/// # Errors
+/// A restitution outside (0, 1], a stiffness that is not positive and finite.
+pub fn linear_damping(
+    pair: &Pair,
+    stiffness: f64,
+    restitution: f64,
+    end_rule: EndRule,
+) -> Result<f64, LawError> {
+    let loss = checked(restitution)?.recip().ln();
+    let stiffness = positive("stiffness", stiffness)?;
+    Ok(2.0 * damping_ratio(loss, end_rule) * (pair.effective_mass() * stiffness).sqrt())
+}
+
 /// Returns ζ at which −ln e is `loss`.
 pub(super) fn damping_ratio(loss: f64, end_rule: EndRule) -> f64 {
     match end_rule {
@@ -78,18 +99,22 @@ fn zero_force_phase(ratio: f64) -> f64 {
     }
 }
 
-/// Returns k and c as given, or those of a restitution and a contact time.
+/// Returns k and c as given, or those of a restitution and a contact time or a stiffness.
 ///
 /// # Errors
-/// Those of [`linear_from_restitution`].
+/// Those of [`linear_from_restitution`] and [`linear_damping`].
 pub fn linear_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
-    let pair = context.pair;
+    let LawContext { pair, end_rule, .. } = *context;
+    let stiffness = law.get("k").unwrap_or_default();
     let values = match (law.get("e"), law.get("contact_time")) {
         (Some(restitution), Some(time)) => {
-            let made = linear_from_restitution(&pair, restitution, time, context.end_rule)?;
+            let made = linear_from_restitution(&pair, restitution, time, end_rule)?;
             vec![made.stiffness(), made.damping()]
         }
-        _ => vec![law.get("k").unwrap_or_default(), law.get("c").unwrap_or_default()],
+        (Some(restitution), None) => {
+            vec![stiffness, linear_damping(&pair, stiffness, restitution, end_rule)?]
+        }
+        (None, _) => vec![stiffness, law.get("c").unwrap_or_default()],
     };
     Ok((values, pair))
 }

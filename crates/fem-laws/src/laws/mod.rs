@@ -19,7 +19,7 @@ pub use elastic_plastic::{
 };
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
-pub use linear::{linear, linear_from_restitution, linear_values};
+pub use linear::{linear, linear_damping, linear_from_restitution, linear_values};
 pub(crate) use mean_pressure::REPRESENTATIVE_STRAIN;
 pub use power::{ContactLaw, EndRule, power};
 pub use published::{bordbar_hyppanen, falcon, hertz, mishra_murty, morgado_oppenheim};
@@ -47,13 +47,14 @@ macro_rules! contact_laws {
             /// F = k ξ + c ξ̇.
             Linear, linear, LinearTable, "a table such as { k = \"1e7 N/m\", c = \"30 N s/m\" }";
             formula(_pair, [k, c]) = laws::linear(k, c);
-            given by [k, c: KeyNeed::Default(0.0)] [e, contact_time], values laws::linear_values;
+            given by [k, c: KeyNeed::Default(0.0)] [e, contact_time] [k, e],
+                values laws::linear_values;
             keys {
-                /// Stiffness, > 0; with `c`.
+                /// Stiffness, > 0; with `c` or `e`.
                 k: Stiffness, Positive, Role::STIFFNESS;
                 /// Damping, ≥ 0; 0 if absent.
                 c: Damping, NotNegative, Role::DAMPING;
-                /// Restitution, > 0 and ≤ 1; with `contact_time`, in place of `k` and `c`.
+                /// Restitution, > 0 and ≤ 1, under the law's `end`; with `k` or `contact_time`, in place of `c`.
                 e: Number, Restitution;
                 /// Contact time, > 0; with `e`.
                 contact_time: Time, Positive;

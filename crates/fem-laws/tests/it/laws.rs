@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use fem_laws::laws::{
     ContactLaw, bordbar_hyppanen, dissipation_time, falcon, hertz, hunt_crossley, kuwabara_kono,
-    linear, linear_from_restitution, mishra_murty, morgado_oppenheim, power, schwager_poeschel,
-    tsuji, tsuji_coefficient,
+    linear, linear_damping, linear_from_restitution, mishra_murty, morgado_oppenheim, power,
+    schwager_poeschel, tsuji, tsuji_coefficient,
 };
 use fem_laws::{
     EndRule, HertzImpact, Impact, ImpactQuantities, LawError, LawImpact, Pair, Partner,
@@ -117,8 +117,16 @@ fn linear_law_gives_the_restitution_and_time_asked_for() {
             let found = model.impact(2.0).unwrap();
             assert_close(found.restitution, restitution, DAMPED);
             assert_close(found.contact_time.unwrap(), 64e-6, DAMPED);
+            // The stiffness and the restitution give the damping of that law.
+            let damping = linear_damping(&pair, law.stiffness(), restitution, end_rule).unwrap();
+            assert!((damping - law.damping()).abs() <= 1e-12 * law.damping());
         }
     }
+    let [e, k, m] = [0.5f64, 5e4, pair.effective_mass()];
+    let published = -2.0 * e.ln() * (m * k).sqrt() / (PI * PI + e.ln() * e.ln()).sqrt();
+    let damping = linear_damping(&pair, k, e, EndRule::ZeroOverlap).unwrap();
+    assert_close(damping, published, 1e-14);
+    assert_close(impact_to_zero_overlap(linear(k, damping).unwrap(), 2.0).restitution, e, DAMPED);
 }
 
 /// The Padé form of Müller & Pöschel (2011), good to 1e-4 for e > 0.84, at zero force.

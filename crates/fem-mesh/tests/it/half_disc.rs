@@ -199,12 +199,18 @@ fn imported_meshes_are_repaired_or_rejected() {
     assert_eq!(repaired.surface(), mesh.surface());
     assert_on_arc(&repaired);
 
+    // Nodes of no element: the centre of an arc before all others, and one at the place of another.
+    let centre = [[0.0, mesh.radius()]];
+    let loose = [&centre[..], &nodes, &nodes[..1]].concat();
+    let renumbered: Vec<_> = quads.iter().map(|quad| quad.map(|k| k + 1)).collect();
+    assert_eq!(import(&loose, &renumbered).unwrap(), mesh);
+
     let check = |nodes: &[[f64; 2]], quads: &[[u32; 4]], words: &str| {
         let message = import(nodes, quads).unwrap_err().to_string();
         assert!(message.contains(words), "{message} lacks {words}");
     };
     check(&nodes, &[], "no quadrilaterals");
-    check(&nodes, &quads[..10], "belongs to no element");
+    check(&nodes, &quads[..10], "long along the axis");
     check(&nodes[..10], &quads, "the mesh has 10 nodes");
     let shifted: Vec<_> = nodes.iter().map(|p| [p[0], p[1] + 1e-3]).collect();
     check(&shifted, &quads, "contact pole must be at y = 0");

@@ -78,7 +78,7 @@ impl CaseArguments {
         } else {
             Case::load(&self.case, overrides)?
         };
-        case.check_units()?;
+        case.check_units(false)?;
         Ok(case)
     }
 

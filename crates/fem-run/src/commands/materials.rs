@@ -2,7 +2,7 @@
 
 use fem_case::CaseFile;
 use fem_case::engineering::{number, show};
-use fem_case::library::{Material, materials, nearest_to, table_text};
+use fem_case::library::{Material, find, materials, nearest_to, table_text};
 use fem_case::schema::BodyTable;
 use fem_case::{Case, CaseError};
 use textwrap::{Options, WordSeparator, WordSplitter};
@@ -30,8 +30,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// the name is optional.
 pub fn one(name: &str) -> Result<String, Failure> {
     let name = name.strip_prefix("lib:").unwrap_or(name);
-    let found = materials().get(name).zip(table_text(name));
-    let Some((Material { title, source, range, measured, .. }, text)) = found else {
+    let found = find(name).and_then(|(name, entry)| Some((name, entry, table_text(name)?)));
+    let Some((name, Material { title, source, range, measured, .. }, text)) = found else {
         let near = nearest_to(name).map_or(String::new(), |near| format!("did you mean {near}? "));
         let all: Vec<&str> = materials().keys().map(String::as_str).collect();
         let message = format!("the library has no material {name:?}");

@@ -67,6 +67,7 @@ fn every_model_and_law_is_read() {
         ("linear = { k = '10 N/um', c = '30 N s/m' }", "Linear k=1e7 c=3e1"),
         ("linear = { k = 1e7 }", "Linear k=1e7 c=0e0"),
         ("linear = { e = 0.9, contact_time = '60 us' }", "Linear e=9e-1 contact_time=6e-5"),
+        ("linear = { k = 1e7, e = 0.9 }", "Linear k=1e7 e=9e-1"),
         (
             "power = { k = 3e9, gamma = 1.5, c = 1e4, n = 0.5 }",
             "Power k=3e9 gamma=1.5e0 c=1e4 n=5e-1",
@@ -130,7 +131,8 @@ fn faults_point_at_their_key() {
     fault("law = { bordbar_hyppanen = «{ a = 1e-6 }» }", "`n` is missing", "n = ");
     fault("law = { linear = «{ c = 1 }» }", "`k` is missing", "N/m");
     fault("law = { linear = «{ e = 0.9 }» }", "`contact_time` is missing", "10 us");
-    fault("law = { linear = { k = 1, e = «0.9» } }", "both k and e", "e and contact_time");
+    let help = "give k and c, or e and contact_time, or k and e";
+    fault("law = { linear = { k = 1, c = 1, e = «0.9» } }", "both c and e", help);
     fault("law = { power = «{ k = 1, gamma = 1, c = 1 }» }", "`n` is missing", "");
     fault("law = { tsuji = { e = 0.9, alpha = «1» } }", "both e and alpha", "give e, or alpha");
     fault("law = { tsuji = { e = «1.1» } }", "e is 1.1", "at most 1");
@@ -211,6 +213,8 @@ fn resolved_case_of_a_model_gives_the_same_results() {
         assert_eq!(text.contains("[mesh]"), value.contains("condensed"), "{text}");
         assert!(!text.contains("[time]"), "{text}");
     }
+    let wanted = run(&["model.law={linear={k=1e7, e=0.5}, end='zero_overlap'}"]).restitution;
+    assert!((wanted.unwrap() - 0.5).abs() < 1e-6, "{wanted:?}");
 }
 
 #[test]

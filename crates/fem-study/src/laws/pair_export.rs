@@ -223,8 +223,9 @@ fn kinds(
 
 fn check_material(case: &Case, name: &str) -> Result<(), LawFault> {
     let own = &case.file().material;
-    let in_library = |name: &str| library::materials().contains_key(name);
-    if own.contains_key(name) || name.strip_prefix("lib:").is_some_and(in_library) {
+    if own.contains_key(name)
+        || name.strip_prefix("lib:").is_some_and(|it| library::find(it).is_some())
+    {
         return Ok(());
     }
     let library = library::nearest_to(name.trim_start_matches("lib:"));

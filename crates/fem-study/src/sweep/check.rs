@@ -71,7 +71,7 @@ pub fn check_some(
     mut see: impl FnMut(&Member, &CaseFile),
 ) -> Result<Checked, CaseError> {
     let look = |index: usize, case: &Case| {
-        case.check_units()?;
+        case.check_units(false)?;
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
         let expected = is_left.then(|| Simulation::expected_of(case)).transpose()?;

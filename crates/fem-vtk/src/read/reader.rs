@@ -1,5 +1,6 @@
 //! Reads quadrilateral meshes and named arrays from a `.vtu`.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -7,6 +8,9 @@ use crate::read::decode::{decode, place};
 use crate::read::vtu_xml::{ArrayEntry, FormatError, VtuXml, tame};
 use crate::values::{Numbers, first_not_finite};
 use crate::vtk_types::{Section, VTK_QUAD};
+
+/// The types of single points, and of lines of two or more points.
+const POINTS_AND_LINES: RangeInclusive<i64> = 1..=4;
 
 /// Points and quadrilaterals of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,11 +95,11 @@ impl VtuFile {
         }
     }
 
-    /// Returns points and cells.
+    /// Returns points and quadrilaterals. Points and lines, which mesh generators write for named boundaries, are left out.
     ///
     /// # Errors
     ///
-    /// There are no points or cells; a point does not have three finite coordinates; a cell is not a `VTK_QUAD`; a point
+    /// There are no points or cells; a point does not have three finite coordinates; a cell is of another type; a point
     /// number is out of range; or the data are damaged.
     pub fn quad_mesh(&self) -> Result<QuadMesh, Error> {
         let VtuXml { n_points, n_cells, .. } = self.xml;
@@ -107,27 +111,42 @@ impl VtuFile {
             ));
         }
         let points = self.read_points()?;
-        self.check_types()?;
-        self.check_offsets()?;
+        let types = self.read_per_cell("types")?;
+        let ends = self.read_per_cell("offsets")?;
         let connectivity = self.read_integers("connectivity")?;
-        self.check_length("Cells array \"connectivity\"", connectivity.len(), n_cells, 4)?;
-        let (cells, _) = connectivity.as_chunks::<4>();
-        let mut quads = Vec::with_capacity(cells.len());
-        for (cell, corners) in cells.iter().enumerate() {
+        let mut quads = Vec::with_capacity(n_cells);
+        let mut start = 0;
+        for (cell, (&kind, &end)) in types.iter().zip(&ends).enumerate() {
+            let wrong = |array, found: String, allowed: &str| {
+                self.error(format!("Cells array \"{array}\""), found, allowed)
+            };
+            let corners = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end));
+            let corners = corners.ok_or_else(|| {
+                let allowed = format!("{start} to {}", connectivity.len());
+                wrong("offsets", format!("{end} at cell {cell}"), &allowed)
+            })?;
+            start += corners.len();
+            if POINTS_AND_LINES.contains(&kind) {
+                continue;
+            } else if kind != i64::from(VTK_QUAD) {
+                let found = format!("cell {cell} of type {}", cell_type_name(kind));
+                return Err(wrong("types", found, &remedy(kind)));
+            }
+            let corners = <[i64; 4]>::try_from(corners).map_err(|_| {
+                let found = format!("{} points of cell {cell}", corners.len());
+                wrong("offsets", found, "four for a quadrilateral")
+            })?;
             let mut quad = [0; 4];
-            for (corner, &point) in corners.iter().enumerate() {
+            for (corner, point) in corners.into_iter().enumerate() {
                 let in_range = usize::try_from(point).is_ok_and(|point| point < n_points);
                 quad[corner] = u32::try_from(point).ok().filter(|_| in_range).ok_or_else(|| {
                     let found = format!("point {point} at corner {corner} of cell {cell}");
-                    self.error(
-                        "Cells array \"connectivity\"",
-                        found,
-                        format!("0 to {}", n_points - 1),
-                    )
+                    wrong("connectivity", found, &format!("0 to {}", n_points - 1))
                 })?;
             }
             quads.push(quad);
         }
+        self.check_length("Cells array \"connectivity\"", connectivity.len(), start, 1)?;
         Ok(QuadMesh { points, quads })
     }
 
@@ -203,36 +222,10 @@ impl VtuFile {
         }
     }
 
-    fn check_types(&self) -> Result<(), Error> {
-        let types = self.read_integers("types")?;
-        self.check_length("Cells array \"types\"", types.len(), self.xml.n_cells, 1)?;
-        match types.iter().position(|&kind| kind != i64::from(VTK_QUAD)) {
-            None => Ok(()),
-            Some(cell) => {
-                let found = format!("cell {cell} of type {}", cell_type_name(types[cell]));
-                Err(self.error(
-                    "Cells array \"types\"",
-                    found,
-                    "only four-node quadrilaterals (9, VTK_QUAD)",
-                ))
-            }
-        }
-    }
-
-    fn check_offsets(&self) -> Result<(), Error> {
-        let offsets = self.read_integers("offsets")?;
-        self.check_length("Cells array \"offsets\"", offsets.len(), self.xml.n_cells, 1)?;
-        match (4..).step_by(4).zip(&offsets).position(|(expected, &offset)| offset != expected) {
-            None => Ok(()),
-            Some(cell) => {
-                let found = format!("{} at cell {cell}", offsets[cell]);
-                Err(self.error(
-                    "Cells array \"offsets\"",
-                    found,
-                    "4, 8, 12, ... for quadrilaterals",
-                ))
-            }
-        }
+    fn read_per_cell(&self, name: &str) -> Result<Vec<i64>, Error> {
+        let numbers = self.read_integers(name)?;
+        self.check_length(&format!("Cells array \"{name}\""), numbers.len(), self.xml.n_cells, 1)?;
+        Ok(numbers)
     }
 
     fn read_integers(&self, name: &str) -> Result<Vec<i64>, Error> {
@@ -322,11 +315,21 @@ fn malformed(path: &Path, error: FormatError) -> Error {
     Error::Malformed { path: path.to_path_buf(), place, found, allowed }
 }
 
+/// Returns what a mesh needs in place of cells of a type, with the options of gmsh that write it.
+fn remedy(kind: i64) -> String {
+    let in_gmsh = match kind {
+        5 => {
+            "; in gmsh: Mesh.RecombineAll = 1 or Recombine Surface, with Mesh.SubdivisionAlgorithm = 1"
+        }
+        22 | 23 | 28 => "; in gmsh: Mesh.ElementOrder = 1",
+        _ => "",
+    };
+    format!("only four-node quadrilaterals (9, VTK_QUAD){in_gmsh}")
+}
+
 /// Returns number and name of a cell type of usual meshes.
 fn cell_type_name(kind: i64) -> String {
     let name = match kind {
-        1 => "VTK_VERTEX",
-        3 => "VTK_LINE",
         5 => "VTK_TRIANGLE",
         7 => "VTK_POLYGON",
         8 => "VTK_PIXEL",

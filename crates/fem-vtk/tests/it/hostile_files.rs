@@ -44,6 +44,21 @@ fn unmodified_square_is_read() {
     assert_eq!(mesh.quads, [[0, 1, 2, 3]]);
 }
 
+/// A vertex, lines and a polyline around two quadrilaterals, as meshio writes the named boundaries of gmsh.
+#[test]
+fn points_and_lines_beside_quadrilaterals_are_left_out() {
+    let points = format!("{POINTS} 2 0 0 2 1 0");
+    let text = square(
+        "NumberOfPoints=\"6\" NumberOfCells=\"6\"",
+        &points,
+        "0  0 1  0 1 2 3  2 3 0  1 4 5 2  4 5",
+        "1 3 7 10 14 16",
+        "1 3 9 4 9 3",
+    );
+    let mesh = VtuFile::from_bytes("gmsh.vtu", text.into_bytes()).unwrap().quad_mesh().unwrap();
+    assert_eq!((mesh.points.len(), mesh.quads), (6, vec![[0, 1, 2, 3], [1, 4, 5, 2]]));
+}
+
 /// Every wrong number of the mesh: points, connectivity, offsets and types, and what the message says.
 #[test]
 fn reader_rejects_wrong_numbers_in_the_mesh() {
@@ -56,11 +71,14 @@ fn reader_rejects_wrong_numbers_in_the_mesh() {
         (0, &pieces, "data in several pieces"),
         (1, "0 1 2 4", "point 4 at corner 3 of cell 0; allowed: 0 to 3"),
         (1, "0 1 -2 3", "point -2 at corner 2"),
-        (1, "0 1 2", "found 3 values; allowed: 1 tuples x 4"),
-        (2, "3", "found 3 at cell 0; allowed: 4, 8, 12"),
-        (2, "5", "found 5 at cell 0"),
+        (1, "0 1 2", "found 4 at cell 0; allowed: 0 to 3"),
+        (1, "0 1 2 3 0", "found 5 values; allowed: 4 tuples x 1"),
+        (2, "3", "found 3 points of cell 0; allowed: four"),
+        (2, "5", "found 5 at cell 0; allowed: 0 to 4"),
+        (2, "-4", "found -4 at cell 0"),
         (2, "4 8", "found 2 values; allowed: 1 tuples"),
-        (3, "23", "type 23 (VTK_QUADRATIC_QUAD)"),
+        (3, "23", "type 23 (VTK_QUADRATIC_QUAD); allowed: only four-node"),
+        (3, "23", "Mesh.ElementOrder = 1"),
         (3, "", "found 0 values"),
     ] {
         let mut parts = good;

@@ -1,6 +1,8 @@
 //! Probes, and implausible numbers.
 
-use fem_case::Probe;
+use std::path::Path;
+
+use fem_case::{Case, Probe};
 
 use super::message_table::{VALID, parse};
 
@@ -44,4 +46,50 @@ fn implausible_numbers_cause_warnings() {
     ] {
         assert_eq!(odd(part, replacement), [""; 0], "{replacement}");
     }
+}
+
+/// Density, Young's modulus, diameter and speed as a deck has them: the proposals are of one system of units, and name
+/// every bare number of a deck.
+#[test]
+fn units_are_proposed_in_one_system() {
+    let case = |[density, modulus, diameter, speed]: [&str; 4]| {
+        format!(
+            "[material.m]\ndensity = {density}\nyoungs_modulus = {modulus}\npoissons_ratio = 0.3\n\
+             [[body]]\nname = \"floor\"\nwall = {{}}\n[[body]]\nname = \"ball\"\n\
+             sphere = {{ diameter = {diameter} }}\nmaterial = \"m\"\napproach_speed = {speed}\n"
+        )
+    };
+    let keys = ["diameter", "approach_speed", "density", "youngs_modulus"];
+    for (numbers, units) in [
+        (["1.1e-9", "6.0", "50.0", "4429"], ["mm", "mm/s", "t/mm^3", "MPa"]),
+        (["7.85e-9", "210000", "50", "0.5"], ["mm", "mm/s", "t/mm^3", "MPa"]),
+        (["1.1e-3", "6", "50", "4.4"], ["mm", "m/s", "g/mm^3", "MPa"]),
+        (["1.1e-6", "0.006", "50", "4.4"], ["mm", "m/s", "kg/mm^3", "GPa"]),
+        (["7.33e-4", "30e6", "1", "174"], ["in", "in/s", "lbf s^2/in^4", "psi"]),
+        (["2.39", "63", "22.2", "2"], ["mm", "", "g/cm^3", "GPa"]),
+        (["1100", "5000", "0.05", "4"], ["", "", "", "MPa"]),
+        (["7850", "210e9", "9", "2"], ["mm", "", "", ""]),
+        (["7850", "210e9", "0.009", "2000"], ["", "mm/s", "", ""]),
+        (["7850", "210e9", "0.009", "\"2000 m/s\""], ["", "", "", ""]),
+    ] {
+        let [density, modulus, diameter, speed] = numbers;
+        let mut expected = Vec::new();
+        for (k, text) in [diameter, speed, density, modulus].into_iter().enumerate() {
+            if !units[k].is_empty() {
+                expected.push(format!("write the unit: {} = \"{text} {}\", or", keys[k], units[k]));
+            }
+        }
+        let mut helps = Vec::new();
+        if let Err(error) = parse(&case(numbers)).unwrap().check_units(false) {
+            let all = std::iter::once(&error).chain(error.others());
+            helps = all.map(|error| error.help().unwrap().to_string()).collect();
+        }
+        let are_alike = expected.iter().zip(&helps).all(|(all, help)| help.starts_with(all));
+        assert!(are_alike && expected.len() == helps.len(), "{numbers:?}: {helps:#?}");
+    }
+    // A bare number of an override in code is SI.
+    let faster = ["body.1.approach_speed=2000".to_string()];
+    let text = case(["7850", "210e9", "0.009", "2"]);
+    let case = Case::parse("pair.toml", &text, Path::new("."), &faster).unwrap();
+    assert!(case.check_units(true).is_ok() && case.check_units(false).is_err());
 }
