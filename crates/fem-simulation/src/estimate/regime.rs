@@ -14,7 +14,7 @@ use crate::rejection::Rejection;
 /// A scene for which a model is built, and its estimate.
 #[derive(Clone, Debug)]
 pub struct Regime {
-    /// The scene.
+    /// The scene that a model is built for.
     pub scene: Scene,
     /// Closed-form estimate of its collision.
     pub estimate: Estimate,
