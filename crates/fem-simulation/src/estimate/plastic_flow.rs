@@ -8,9 +8,8 @@ use fem_collision::QuantityOfInterest;
 use fem_laws::{FirstYield, HertzImpact, ImpactQuantities, LawFamily, LawInput};
 use fem_material::{FlowRule, RateFactor};
 
-use crate::estimate::Estimate;
 use crate::estimate::plate_impact::free_plate;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
 
