@@ -144,8 +144,5 @@ impl ComputedScene {
 /// # Errors
 /// A scene that an effect rejects, or whose closed-form estimates are not finite.
 pub fn selected_model(scene: &Scene) -> Result<ModelChoice, Rejection> {
-    match scene.model() {
-        ModelChoice::Auto => Ok(ComputedScene::of(scene)?.selected.regime.scene.model().clone()),
-        named => Ok(named.clone()),
-    }
+    Ok(ComputedScene::of(scene)?.selected.regime.scene.model().clone())
 }
