@@ -24,19 +24,18 @@ pub use effects::{bounds_of_closed_forms, computed_flow, restitution_with_adhesi
 pub use error::{
     ComputedCollision, ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound, collide,
 };
-pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
 pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
 pub use estimate::plate_impact::free_plate;
 pub use estimate::quasi_static::ting_impact;
-pub use estimate::regime::Regime;
+pub use estimate::{Estimate, Regime};
 pub use models::method::{
     Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels,
 };
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
     AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, METHODS,
-    ModelCandidate, Reduced, ReducedMethod, method_of, model_of, selected_model,
+    ModelCandidate, Reduced, ReducedMethod, method_of, selected_model,
 };
 pub use plan::body_source::build_meshes;
 pub use plan::contact_method::{ContactNoiseAdvice, contact_method, ignored_method_warning};

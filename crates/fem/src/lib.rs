@@ -21,8 +21,8 @@ pub use fem_simulation::{
     RefinedBeforeRun, RefinementBound, RefinementLevel, Regime, Rejection, RestartState,
     SharedModels, Simulation, Stepper, StopAdvice, Summary, WarningKind, WarningKinds, approach_of,
     build_meshes, case_identity, checkpoint, checkpoint_head, collide, diagnose, digest_of,
-    divided_radius, effects, error, method_of, model_of, restart_state_of, results, stop_advice,
-    ting_impact, tolerance_of,
+    divided_radius, effects, error, method_of, restart_state_of, results, stop_advice, ting_impact,
+    tolerance_of,
 };
 pub use fem_study::sweep::sweep;
 pub use fem_study::{accuracy, calibrate, laws, sweep};

@@ -44,7 +44,7 @@ fn every_effect_that_is_computed_has_a_row() {
         let simulation = row.on.simulation();
         let estimate = &simulation.setup().estimate;
         let is_computed = |effect: &&dyn Effect| {
-            let support = simulation.model().support(*effect, estimate);
+            let support = simulation.support(*effect, estimate);
             support.is_some_and(|support| support != Support::Lacks)
         };
         computed.extend(EFFECTS.into_iter().filter(is_computed).map(|effect| effect.name()));

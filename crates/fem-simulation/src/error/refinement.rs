@@ -247,24 +247,19 @@ impl ErrorEstimator {
     ) -> Result<Simulation, NotRefined> {
         let scene = simulation.case().scene();
         let elements = simulation.setup().elements.as_ref().ok_or(NotRefined::Given)?;
-        if let Some(setting) = self.faulty_setting(simulation, miss, met) {
-            return Err(NotRefined::Setting(setting));
-        }
-        if !miss.is_of_mesh() {
-            return Err(NotRefined::Scatter(miss.scatter));
-        }
-        if has_mesh_file(simulation) {
-            return Err(NotRefined::FromFile);
-        }
-        if scene.mesh().contact_element_size.is_some() {
-            return Err(NotRefined::Given);
-        }
         let is_other = |collision: &Collision| collision.approach != simulation.setup().approach;
-        if scene.gravity().is_some() || met.is_some_and(is_other) {
-            return Err(NotRefined::Gravity);
-        }
-        if simulation.levels().len() >= MAX_LEVELS {
-            return Err(NotRefined::TooExpensive { updates: None });
+        match self.faulty_setting(simulation, miss, met) {
+            Some(setting) => return Err(NotRefined::Setting(setting)),
+            _ if !miss.is_of_mesh() => return Err(NotRefined::Scatter(miss.scatter)),
+            _ if has_mesh_file(simulation) => return Err(NotRefined::FromFile),
+            _ if scene.mesh().contact_element_size.is_some() => return Err(NotRefined::Given),
+            _ if scene.gravity().is_some() || met.is_some_and(is_other) => {
+                return Err(NotRefined::Gravity);
+            }
+            _ if simulation.levels().len() >= MAX_LEVELS => {
+                return Err(NotRefined::TooExpensive { updates: None });
+            }
+            _ => {}
         }
         let by = refinement_ratio(miss.excess_of_mesh())
             .clamp(REFINEMENT_RATIOS[0], REFINEMENT_RATIOS[1]);
@@ -287,13 +282,10 @@ impl ErrorEstimator {
             }
             (enough, _) => enough,
         };
+        let most = scene.limits().element_updates.unwrap_or(MAX_UPDATES);
         match finer.setup().cost {
-            Cost::Steps { element_updates, .. } => {
-                let most = scene.limits().element_updates.unwrap_or(MAX_UPDATES);
-                match element_updates > most {
-                    true => Err(NotRefined::TooExpensive { updates: Some(element_updates) }),
-                    false => Ok(finer),
-                }
+            Cost::Steps { element_updates, .. } if element_updates > most => {
+                Err(NotRefined::TooExpensive { updates: Some(element_updates) })
             }
             Cost::Factors { elements, .. } if elements > MAX_ELEMENTS => {
                 Err(NotRefined::TooExpensive { updates: None })

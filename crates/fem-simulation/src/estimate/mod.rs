@@ -5,19 +5,22 @@ pub(crate) mod effective_modulus;
 pub(crate) mod plastic_flow;
 pub(crate) mod plate_impact;
 pub(crate) mod quasi_static;
-pub(crate) mod regime;
 pub(crate) mod semi_infinite_partner;
 pub(crate) mod viscous_flow;
+
+use std::borrow::Cow;
 
 use fem_case::{Body, ModelChoice, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
+use fem_material::engineering::{number, show};
 use fem_material::{ElasticModuli, Material};
 
 use crate::estimate::effective_modulus::{EffectiveModuli, sizes_of};
 use crate::estimate::plastic_flow::flowing_impact;
 use crate::estimate::plate_impact::{PlateImpact, thin_plate_mobility};
 use crate::estimate::quasi_static::KnownImpacts;
+use crate::rejection::Rejection;
 
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
 const MIN_MODULUS: f64 = 0.05;
@@ -92,46 +95,32 @@ impl Estimate {
 
     fn with_known(scene: &Scene, speed: f64, impacts: KnownImpacts) -> Result<Self, LawError> {
         let hertz = HertzImpact::new(&pair_at(scene, 0.0, MIN_MODULUS)?, speed)?;
-        let mut relaxed_impact = hertz;
-        // The contact time depends weakly on the moduli: a few passes converge.
-        for _ in 0..8 {
-            let half = 0.5 * relaxed_impact.contact_time();
-            let pair = pair_at(scene, half, MIN_MODULUS);
-            match pair.and_then(|pair| HertzImpact::new(&pair, speed)) {
-                Ok(next) => relaxed_impact = next,
-                Err(_) => break,
-            }
-        }
-        let spheres = || scene.bodies().iter().filter_map(Body::diameter);
-        let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
+        let relaxed_impact = relaxed_to_middle(scene, hertz);
+        let spheres = scene.bodies().iter().filter_map(Body::diameter);
         let is_elastic = matches!(
             scene.model(),
             ModelChoice::Condensed(_) | ModelChoice::Ting { .. } | ModelChoice::Hertz { .. }
         );
-        let flow = flowing_impact(scene, &hertz, None).filter(|_| !is_elastic);
-        let flow = flow.map(|impact| impact.quantities);
         // A plate takes part of the force and lengthens the contact.
-        let bent = thin_plate_mobility(scene)
-            .and_then(|_| impacts.on_half_spaces(scene, hertz.pair(), speed).ok());
-        let bent = bent.map(|impact| {
+        let bent = thin_plate_mobility(scene).and_then(|_| {
+            let impact = impacts.on_half_spaces(scene, hertz.pair(), speed).ok()?;
             let last = impact.history.last().map_or(0.0, |instant| instant.time);
             let sizes = sizes_of(&impact, &relaxed_impact);
-            ImpactQuantities { contact_time: sizes.contact_time.max(last), ..sizes }
+            Some(ImpactQuantities { contact_time: sizes.contact_time.max(last), ..sizes })
         });
         // A ball that sinks in with its plate is stopped as an elastic one is.
         let stopped = bent.map_or(relaxed_impact.contact_time(), |bent| bent.contact_time);
-        let flow = flow.map(|impact| match impact.contact_time.is_finite() {
-            true => impact,
-            false => ImpactQuantities { contact_time: stopped, ..impact },
+        let flow = flowing_impact(scene, &hertz, None).filter(|_| !is_elastic);
+        let flow = flow.map(|impact| match impact.quantities.contact_time.is_finite() {
+            true => impact.quantities,
+            false => ImpactQuantities { contact_time: stopped, ..impact.quantities },
         });
         let sizes = flow.or(bent).unwrap_or_else(|| ImpactQuantities::from(&relaxed_impact));
         let contact_radius = sizes.max_contact_radius;
-        let materials = || scene.bodies().iter().filter_map(Body::material);
         let contact_time = relaxed_impact.contact_time();
-        let relaxed = materials()
-            .filter_map(|material| material.relaxation())
-            .map(|series| 1.0 - series.relaxation(contact_time))
-            .fold(0.0, f64::max);
+        let relaxed = scene.bodies().iter().filter_map(|body| body.material()?.relaxation());
+        let relaxed =
+            relaxed.map(|series| 1.0 - series.relaxation(contact_time)).fold(0.0, f64::max);
         let effective = match relaxed > LARGE_LOSS_OF_MODULI {
             true => EffectiveModuli::much(scene, &hertz, &impacts).ok(),
             false => None,
@@ -150,7 +139,7 @@ impl Estimate {
             approach: sizes.max_approach,
             contact_radius,
             bends: false,
-            smallest_radius,
+            smallest_radius: 0.5 * spheres.fold(f64::INFINITY, f64::min),
             strain: contact_radius / hertz.pair().effective_radius(),
             mach: mach(scene, speed),
             ringing: ringing(scene, hertz.contact_time()),
@@ -164,6 +153,90 @@ impl Estimate {
             PlateImpact::of(scene, &estimate).is_some_and(|plate| !plate.is_half_space());
         Ok(estimate)
     }
+}
+
+/// A scene for which a model is built, and its estimate.
+#[derive(Clone, Debug)]
+pub struct Regime {
+    /// The scene of the collision.
+    pub scene: Scene,
+    /// Closed-form estimate of its collision.
+    pub estimate: Estimate,
+}
+
+impl Regime {
+    /// Estimates a scene.
+    ///
+    /// # Errors
+    /// Those of [`Estimate::of`], as a fault of the scene; masses out of the range of f64.
+    pub fn of(scene: Scene) -> Result<Self, Rejection> {
+        Self::checked(scene, KnownImpacts::default())
+    }
+
+    /// Estimates a variant of the scene, with the impacts that are known already.
+    ///
+    /// # Errors
+    /// Those of [`Regime::of`].
+    pub(crate) fn variant(&self, scene: Scene) -> Result<Self, Rejection> {
+        Self::checked(scene, self.estimate.impacts.clone())
+    }
+
+    /// Returns the estimate of the scene at an approach speed, m/s.
+    ///
+    /// # Errors
+    /// Those of [`Estimate::of`].
+    pub(crate) fn at(&self, speed: f64) -> Result<Cow<'_, Estimate>, LawError> {
+        match speed == self.estimate.hertz.approach_speed() {
+            true => Ok(Cow::Borrowed(&self.estimate)),
+            false => self.estimate.of_variant(&self.scene, speed).map(Cow::Owned),
+        }
+    }
+
+    fn checked(scene: Scene, known: KnownImpacts) -> Result<Self, Rejection> {
+        let rejected = |why: String| {
+            Rejection::new("body", format!("the collision cannot be estimated: {why}"))
+                .with_help("check sizes, densities, moduli and speeds, and their units")
+        };
+        // An infinite mass would count as a wall, and products of masses must be finite too.
+        let bodies = scene.bodies().iter().enumerate();
+        let mut masses = bodies.filter_map(|(k, body)| Some((k, body, body.mass()?)));
+        if let Some((k, body, mass)) = masses.find(|(_, _, mass)| !(mass * mass).is_normal()) {
+            let (density, diameter) = (body.material().map(Material::density), body.diameter());
+            // The factor that is farther from 1 in SI, by its power in the mass, is the likely cause.
+            let far = |value: Option<f64>| value.map_or(0.0, |value| value.log10().abs());
+            let is_density = far(density) > 3.0 * far(diameter);
+            let (part, of) = match is_density {
+                true => {
+                    ("material", format!("density is {} kg/m^3", number(density.unwrap_or(0.0), 4)))
+                }
+                false => (
+                    "sphere.diameter",
+                    format!("diameter is {}", show(diameter.unwrap_or(0.0), "m")),
+                ),
+            };
+            let mut rejection = rejected(format!(
+                "the mass of {} is {} kg, since its {of}; its square must be a number",
+                body.name(),
+                number(mass, 4)
+            ));
+            rejection.key = format!("body.{k}.{part}");
+            return Err(rejection);
+        }
+        match Estimate::with_known(&scene, scene.approach_speed(), known) {
+            Ok(estimate) => Ok(Self { scene, estimate }),
+            Err(error) => Err(rejected(error.to_string())),
+        }
+    }
+}
+
+/// Returns Hertz' impact of a scene with the moduli relaxed to the middle of its contact. The contact time depends weakly on the
+/// moduli: a few passes converge.
+fn relaxed_to_middle(scene: &Scene, hertz: HertzImpact) -> HertzImpact {
+    let relaxed = |impact: &HertzImpact| {
+        let pair = pair_at(scene, 0.5 * impact.contact_time(), MIN_MODULUS).ok()?;
+        HertzImpact::new(&pair, impact.approach_speed()).ok()
+    };
+    std::iter::successors(Some(hertz), relaxed).take(9).last().unwrap_or(hertz)
 }
 
 /// Returns a speed (m/s) over the slowest shear wave speed of a scene's bodies.

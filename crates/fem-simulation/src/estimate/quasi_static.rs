@@ -136,7 +136,7 @@ mod tests {
     use fem_case::Case;
 
     use super::*;
-    use crate::estimate::regime::Regime;
+    use crate::estimate::Regime;
     use crate::models::SelectedModel;
 
     /// A scene far outside Ting's range: ten terms over ten decades, and bodies whose stiffness differs by 1e15.

@@ -12,9 +12,8 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{self, EFFECTS, Effect, PlasticFlow, Support};
-use crate::estimate::regime::Regime;
-use crate::estimate::{Estimate, viscous_flow};
-use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
+use crate::estimate::{Estimate, Regime, viscous_flow};
+use crate::models::method::{Method, Model, SharedModels};
 use crate::quantity_errors::{QuantityErrors, tolerance_of};
 use crate::rejection::Rejection;
 
@@ -34,11 +33,6 @@ impl Method for AutoMethod {
 
     fn support(&self, _: &dyn Effect, _: &Scene, _: &Estimate) -> Option<Support> {
         None
-    }
-
-    fn expected(&self, regime: &Regime) -> Result<ExpectedRun, Rejection> {
-        let chosen = with_chosen_model(regime)?;
-        method_of(&chosen.scene).expected(&chosen)
     }
 
     fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {

@@ -13,8 +13,7 @@ use fem_laws::laws::ContactLaw;
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, EffectDecisions, Support};
-use crate::estimate::Estimate;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::models::stepper::{RestartState, SingleStep, Stepper};
 use crate::plan::Plan;
 use crate::plan::contact_method::ContactNoiseAdvice;

@@ -10,9 +10,8 @@ use fem_collision::{
 use fem_mesh::{Side, SphereMesh};
 
 use crate::effects::{Effect, MirrorSymmetry, Support, decide};
-use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::models::method::{ElementSetup, Model, ModelSetup};
 use crate::models::stepper::{RestartState, Stepper, Transformed, stopped};
 use crate::plan::{Plan, candidate_radius};
@@ -26,8 +25,24 @@ pub(super) struct Mirrored<M> {
     image: Option<SphereMesh>,
 }
 
+/// Builds the model of a scene, or of half of it if that suffices.
+///
+/// # Errors
+/// A scene that the plan or `build` rejects; an effect that the case forces on and the half's model lacks.
+pub(super) fn whole_or_half<M: Model + 'static>(
+    regime: &Regime,
+    build: impl Fn(&Scene, Plan) -> Result<M, Rejection>,
+) -> Result<Box<dyn Model>, Rejection> {
+    let half = MirrorSymmetry::half_of(&regime.scene)?;
+    let plan = Plan::in_regime(regime)?;
+    let Some(half) = half else { return Ok(Box::new(build(&regime.scene, plan)?)) };
+    let half = regime.variant(half)?;
+    let model = build(&half.scene, plan_of_half(&plan, &half)?)?;
+    Ok(Box::new(Mirrored::new(model, &regime.scene, plan)?))
+}
+
 /// Returns the plan of half of a scene, with the meshes, snapshots and limits of the whole.
-pub(super) fn plan_of_half(whole: &Plan, half: &Regime) -> Result<Plan, Rejection> {
+fn plan_of_half(whole: &Plan, half: &Regime) -> Result<Plan, Rejection> {
     let Plan { estimate, contact_stiffness, gap, .. } = Plan::in_regime(half)?;
     let candidate_radius = candidate_radius(&estimate, whole.contact_element_size);
     let speed_share = 0.5 * whole.speed_share;
@@ -35,12 +50,8 @@ pub(super) fn plan_of_half(whole: &Plan, half: &Regime) -> Result<Plan, Rejectio
 }
 
 impl<M: Model> Mirrored<M> {
-    /// Builds the whole from the model of the lower half, a sphere against a rigid plane, and the plan of
-    /// the whole.
-    ///
-    /// # Errors
-    /// An effect that the case forces on and the half's model lacks.
-    pub fn new(half: M, scene: &Scene, plan: Plan) -> Result<Self, Rejection> {
+    /// Builds the whole from the model of the lower half, a sphere against a rigid plane, and the plan of the whole.
+    fn new(half: M, scene: &Scene, plan: Plan) -> Result<Self, Rejection> {
         let image = half.meshes()[0].map(|mesh| mesh.clone().on_side(Side::Above));
         let own = half.setup().clone();
         let estimate = plan.estimate.clone();

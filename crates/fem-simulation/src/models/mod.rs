@@ -8,20 +8,18 @@ pub(crate) mod method;
 mod mirrored;
 mod own_frame;
 mod reduced;
-mod simplified;
 pub(crate) mod stepper;
 mod sticking;
 
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
-use crate::effects::{SimplifiedScene, Transformation};
-use crate::estimate::regime::Regime;
-use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
+use crate::effects::{Effect, SimplifiedScene, Support, Transformation, decide};
+use crate::estimate::{Estimate, Regime};
+use crate::models::method::{ExpectedRun, Method, Model, ModelSetup, SharedModels};
 use crate::rejection::Rejection;
 
 use bouncing::Bouncing;
-use simplified::Simplified;
 use sticking::{Bond, Sticking};
 
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
@@ -80,7 +78,7 @@ impl ComputedScene {
         method_of(&self.selected.regime.scene)
     }
 
-    /// Makes the model of the given scene; with gravity, the model of all contacts.
+    /// Makes the model of the transformed scene; with gravity, the model of all contacts.
     ///
     /// # Errors
     /// A scene that the method rejects.
@@ -88,15 +86,37 @@ impl ComputedScene {
         let regime = &self.selected.regime;
         let bond = Bond::of(&self.given.scene);
         let model = Sticking::around(self.method().build(regime, shared)?, bond);
-        let model = match self.given.scene.gravity() {
+        Ok(match self.given.scene.gravity() {
             Some(gravity) => Box::new(Bouncing::new(regime, gravity, model, bond)?),
             None => model,
-        };
-        let transformations = self.transformations.clone();
-        match transformations.is_empty() {
-            true => Ok(model),
-            false => Ok(Box::new(Simplified::new(model, self.given.clone(), transformations)?)),
+        })
+    }
+
+    /// Returns the setup of this model, with the estimate of the given scene and the decisions on its effects.
+    ///
+    /// # Errors
+    /// A switch of an effect that the model cannot obey.
+    pub fn setup_of(&self, model: &dyn Model) -> Result<ModelSetup, Rejection> {
+        if self.transformations.is_empty() {
+            return Ok(model.setup().clone());
         }
+        let Regime { scene, estimate } = &self.given;
+        let decisions = decide(scene, estimate, |effect| self.support(model, effect, estimate))?;
+        Ok(ModelSetup { estimate: estimate.clone(), decisions, ..model.setup().clone() })
+    }
+
+    /// Returns the support of this model for an effect of the given scene.
+    pub fn support(
+        &self,
+        model: &dyn Model,
+        effect: &dyn Effect,
+        estimate: &Estimate,
+    ) -> Option<Support> {
+        let of_model = model.support(effect, estimate);
+        let own = self.transformations.iter().find(|(name, _)| *name == effect.name());
+        let Some((_, transformation)) = own else { return of_model };
+        let relevance = effect.relevance(&self.given.scene, estimate).unwrap_or_default();
+        transformation.support(of_model, &relevance.number)
     }
 
     /// Returns what is expected of a run with all contacts ([`Method::expected`]).
@@ -119,21 +139,10 @@ impl ComputedScene {
     }
 }
 
-/// Makes the model of a scene.
-///
-/// # Errors
-/// A scene that an effect or the method rejects.
-pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-    ComputedScene::of(scene)?.model(shared)
-}
-
 /// Returns the model that computes a scene: the selected one, if the case leaves it open.
 ///
 /// # Errors
 /// A scene that an effect rejects, or whose closed-form estimates are not finite.
 pub fn selected_model(scene: &Scene) -> Result<ModelChoice, Rejection> {
-    match scene.model() {
-        ModelChoice::Auto => Ok(ComputedScene::of(scene)?.selected.regime.scene.model().clone()),
-        named => Ok(named.clone()),
-    }
+    Ok(ComputedScene::of(scene)?.selected.regime.scene.model().clone())
 }

@@ -25,8 +25,7 @@ use fem_collision::{
 use fem_laws::ImpactQuantities;
 
 use crate::effects::{PlateBending, percent};
-use crate::estimate::regime::Regime;
-use crate::estimate::{Estimate, viscous_flow};
+use crate::estimate::{Estimate, Regime, viscous_flow};
 use crate::plan::body_source::meshed;
 use crate::plan::contact_method::{contact_method, default_penalty_factor};
 use crate::plan::element_size::{MeshRule, touches_at_nodes};

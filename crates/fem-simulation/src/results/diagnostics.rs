@@ -24,8 +24,7 @@ use crate::error::{
     excess_of_restitution, is_unresolved, noise, overlap, tolerance_warning, unbalanced_energy,
     unresolved_warning, widest_contact,
 };
-use crate::estimate::mach;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Regime, mach};
 use crate::models::method::{Cost, ElementSetup};
 use crate::models::{ModelCandidate, SelectedModel};
 use crate::plan::Plan;

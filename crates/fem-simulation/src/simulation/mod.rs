@@ -18,13 +18,14 @@ use fem_collision::{
 };
 
 use crate::effects::{
-    Effect, EffectDecision, EffectDecisions, FiniteStrain, NeglectError, decide, effect_named,
+    Effect, EffectDecision, EffectDecisions, FiniteStrain, NeglectError, Support, decide,
+    effect_named,
 };
 use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, ExpectedRun, Model, ModelSetup, SharedModels, start_stepper};
 use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
-use crate::models::{ComputedScene, ModelCandidate, SelectedModel};
+use crate::models::{ComputedScene, ModelCandidate};
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
 use crate::simulation::identity::identity_of;
@@ -33,8 +34,9 @@ use crate::simulation::identity::identity_of;
 #[derive(Clone, Debug)]
 pub struct Simulation {
     case: Case,
+    computed: ComputedScene,
     model: Arc<dyn Model>,
-    selected: SelectedModel,
+    setup: ModelSetup,
     request: OutputRequest,
     resolved: CaseFile,
     shared: SharedModels,
@@ -72,13 +74,15 @@ impl Simulation {
         let of_case = |rejection: Rejection| rejection.in_case(&case);
         let computed = ComputedScene::of(&scene).map_err(of_case)?;
         let model: Arc<dyn Model> = Arc::from(computed.model(shared).map_err(of_case)?);
+        let setup = computed.setup_of(model.as_ref()).map_err(of_case)?;
         let resolved = computed.resolve(case.file().clone()).map_err(of_case)?;
-        let mut request = model.setup().request.clone();
+        let mut request = setup.request.clone();
         request.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
         Ok(Self {
             case,
+            computed,
             model,
-            selected: computed.selected,
+            setup,
             request,
             resolved,
             shared: shared.clone(),
@@ -151,17 +155,17 @@ impl Simulation {
 
     /// Returns the candidate models, the cheapest first; empty if the case names its model.
     pub fn considered(&self) -> &[ModelCandidate] {
-        &self.selected.considered
+        &self.computed.selected.considered
     }
 
     /// Returns the warning that no model is known to meet the tolerance, if the case leaves the choice open.
     pub(crate) fn choice_warning(&self) -> Option<String> {
-        self.selected.warning.clone()
+        self.computed.selected.warning.clone()
     }
 
     /// Returns the decisions on the case.
     pub fn setup(&self) -> &ModelSetup {
-        self.model.setup()
+        &self.setup
     }
 
     /// Returns the caches that models of several cases share.
@@ -287,6 +291,11 @@ impl Simulation {
         }
     }
 
+    /// Returns the support of the model for an effect of the case in a collision with this estimate.
+    pub fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        self.computed.support(self.model(), effect, estimate)
+    }
+
     /// Returns the change of a collision's quantities without an effect.
     pub fn neglect_error(
         &self,
@@ -300,9 +309,9 @@ impl Simulation {
     pub(crate) fn scene_of_model(&self) -> Cow<'_, Scene> {
         let scene = self.case.scene();
         match scene.model() {
-            ModelChoice::Auto => {
-                Cow::Owned(scene.clone().with_model(self.selected.regime.scene.model().clone()))
-            }
+            ModelChoice::Auto => Cow::Owned(
+                scene.clone().with_model(self.computed.selected.regime.scene.model().clone()),
+            ),
             _ => Cow::Borrowed(scene),
         }
     }
@@ -313,8 +322,7 @@ impl Simulation {
         let estimate = self.estimate(&collision.approach);
         let anew = estimate.as_ref().filter(|_| collision.approach != setup.approach);
         let decided = anew.and_then(|estimate| {
-            let support = |effect: &dyn Effect| self.model.support(effect, estimate);
-            decide(&scene, estimate, support).ok()
+            decide(&scene, estimate, |effect| self.support(effect, estimate)).ok()
         });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
         decisions.update_from_result(&scene, estimate.as_ref(), collision);

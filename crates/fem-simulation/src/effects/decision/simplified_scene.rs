@@ -4,8 +4,7 @@ use fem_case::Scene;
 
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{EFFECTS, effect_named};
-use crate::estimate::Estimate;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::rejection::Rejection;
 
 /// A scene transformed by one effect.

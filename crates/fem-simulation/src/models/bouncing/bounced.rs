@@ -2,7 +2,8 @@
 
 use fem_case::{Gravity, Spot};
 use fem_collision::{
-    Approach, Bounce, Collision, Ending, OutputRequest, RestState, STAY_TOGETHER, Snapshot, Stop,
+    Approach, Bounce, Collision, Ending, HistoryRow, OutputRequest, RestState, STAY_TOGETHER,
+    Snapshot, Stop,
 };
 use serde::{Deserialize, Serialize};
 
@@ -138,11 +139,8 @@ impl Bounced {
         let weight = self.gravity.acceleration * collision.bodies[1].mass.unwrap_or(0.0);
         self.chain.take(&collision, &rows, weight);
         if let Ending::Stopped(stop) = &collision.ending {
-            let stop = &of_all(stop, self.element_updates);
-            self.chain.keep(&rows, f64::INFINITY);
-            self.ending = Ending::Stopped(stop.clone().later_by(time));
-            self.first.get_or_insert(collision);
-            return None;
+            let stop = of_all(stop, self.element_updates).later_by(time);
+            return self.stop_after(&rows, collision, stop);
         }
         let bounce = Bounce {
             time,
@@ -157,10 +155,7 @@ impl Bounced {
         let end = rows.last().copied().filter(|_| is_parted);
         if end.is_some_and(|end| !Chain::is_finite(&end)) {
             let what = format!("the flight after contact {} is not finite", self.bounces.len());
-            self.ending = Ending::Stopped(Stop::OutOfRange(what));
-            self.chain.keep(&rows, f64::INFINITY);
-            self.first.get_or_insert(collision);
-            return None;
+            return self.stop_after(&rows, collision, Stop::OutOfRange(what));
         }
         let landing = end.and_then(|end| self.chain.landing(&end, self.gravity.acceleration));
         if let Some(bounce) = self.bounces.last_mut() {
@@ -170,19 +165,7 @@ impl Bounced {
             bounce.restitution = found.unwrap_or(bounce.restitution);
         }
         self.chain.keep(&rows, landing.map_or(f64::INFINITY, |landing| landing.time));
-        let unloaded =
-            collision.unloaded.take().map(|dent| Snapshot { time: time + dent.time, ..dent });
-        let locked_in = collision.bodies.each_ref().map(|body| body.locked_in);
-        let is_same = self.gravity.spot == Some(Spot::Same);
-        let of_dents = locked_in.iter().flatten().filter(|_| is_same).sum();
-        let first = self.first.get_or_insert(collision);
-        // A dent is that of the last contact in the same place.
-        if is_first || is_same && unloaded.is_some() {
-            first.unloaded = unloaded;
-            for (body, energy) in first.bodies.iter_mut().zip(locked_in) {
-                body.locked_in = energy;
-            }
-        }
+        let of_dents = self.dent(collision, time);
         let Some(landing) = landing else {
             self.chain.stay(rows.last());
             self.ending = Ending::AtRest;
@@ -194,6 +177,33 @@ impl Bounced {
             self.chain.fly(end, &landing, of_dents, request.history_rows > 0);
         }
         Some(landing.speed)
+    }
+
+    /// Ends the run with the rows of a contact that stopped.
+    fn stop_after<T>(&mut self, rows: &[HistoryRow], last: Collision, stop: Stop) -> Option<T> {
+        self.chain.keep(rows, f64::INFINITY);
+        self.ending = Ending::Stopped(stop);
+        self.first.get_or_insert(last);
+        None
+    }
+
+    /// Keeps the dents of a contact that begins at a time (s), and returns the energy locked in by those that the ball meets
+    /// again, J.
+    fn dent(&mut self, mut contact: Collision, time: f64) -> f64 {
+        let unloaded =
+            contact.unloaded.take().map(|dent| Snapshot { time: time + dent.time, ..dent });
+        let locked_in = contact.bodies.each_ref().map(|body| body.locked_in);
+        let is_same = self.gravity.spot == Some(Spot::Same);
+        let is_first = self.first.is_none();
+        let first = self.first.get_or_insert(contact);
+        // A dent is that of the last contact in the same place.
+        if is_first || is_same && unloaded.is_some() {
+            first.unloaded = unloaded;
+            for (body, energy) in first.bodies.iter_mut().zip(locked_in) {
+                body.locked_in = energy;
+            }
+        }
+        locked_in.iter().flatten().filter(|_| is_same).sum()
     }
 
     /// Returns the bound on the influence of the previous contact's vibrations.

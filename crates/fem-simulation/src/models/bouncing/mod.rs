@@ -30,8 +30,7 @@ use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, Support};
-use crate::estimate::Estimate;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::method_of;
 use crate::models::stepper::{RestartState, Stepper, stopped};

@@ -21,14 +21,13 @@ use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
 
 use self::cost::{ExpectedProgress, MAX_BYTES, expected_bytes, n_steps, relaxes_in_shear};
-use super::mirrored::{Mirrored, plan_of_half};
-use crate::effects::{Effect, MirrorSymmetry, PartnerWaves, Support, Vibration, decide};
-use crate::estimate::Estimate;
+use super::mirrored::whole_or_half;
+use crate::effects::{Effect, PartnerWaves, Support, Vibration, decide};
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::plate_impact::free_plate;
 use crate::estimate::quasi_static::surfaces_slip;
-use crate::estimate::regime::Regime;
 use crate::estimate::viscous_flow::slower;
+use crate::estimate::{Estimate, Regime};
 use crate::models::method::{
     Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels, estimate_at,
 };
@@ -57,18 +56,10 @@ impl Method for CondensedMethod {
     }
 
     fn build(&self, regime: &Regime, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        let scene = &regime.scene;
-        if !matches!(scene.model(), ModelChoice::Condensed(_)) {
-            return Err(Rejection::chose_another(scene, "condensed"));
+        if !matches!(regime.scene.model(), ModelChoice::Condensed(_)) {
+            return Err(Rejection::chose_another(&regime.scene, "condensed"));
         }
-        let half = MirrorSymmetry::half_of(scene)?;
-        let plan = Plan::in_regime(regime)?;
-        let Some(half) = half else {
-            return Ok(Box::new(Condensed::with_plan(scene, plan, shared)?));
-        };
-        let half = regime.variant(half)?;
-        let model = Condensed::with_plan(&half.scene, plan_of_half(&plan, &half)?, shared)?;
-        Ok(Box::new(Mirrored::new(model, scene, plan)?))
+        whole_or_half(regime, |scene, plan| Condensed::with_plan(scene, plan, shared))
     }
 
     fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use fem_case::{Body, CaseFile, ModelChoice, Scene};
 use fem_collision::{
-    Approach, BodyInput, Collision, Ending, Expectation, Monitor, OutputRequest, Phase, Progress,
+    Approach, BodyInput, Collision, Ending, Monitor, OutputRequest, Phase, Progress,
     STEPS_BETWEEN_REPORTS, StaticContact, Stop,
 };
 use fem_explicit::{
@@ -18,7 +18,7 @@ use fem_mesh::SphereMesh;
 
 use self::cost::cost;
 use super::condensed::static_contact::of_elements;
-use super::mirrored::{Mirrored, plan_of_half};
+use super::mirrored::whole_or_half;
 use super::own_frame::OwnFrame;
 use crate::effects::{
     AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
@@ -27,8 +27,7 @@ use crate::effects::{
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
-use crate::estimate::regime::Regime;
-use crate::estimate::{Estimate, mach};
+use crate::estimate::{Estimate, Regime, mach};
 use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::stepper::{RestartState, Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
@@ -49,15 +48,7 @@ impl Method for ExplicitMethod {
     }
 
     fn build(&self, regime: &Regime, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        let scene = &regime.scene;
-        let half = MirrorSymmetry::half_of(scene)?;
-        let plan = Plan::in_regime(regime)?;
-        let Some(half) = half else {
-            return Ok(Box::new(Explicit::with_plan(scene, plan)?));
-        };
-        let half = regime.variant(half)?;
-        let model = Explicit::with_plan(&half.scene, plan_of_half(&plan, &half)?)?;
-        Ok(Box::new(Mirrored::new(model, scene, plan)?))
+        whole_or_half(regime, Explicit::with_plan)
     }
 
     fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
@@ -204,11 +195,8 @@ impl Explicit {
     fn stepper(&self, approach: &Approach, request: &OutputRequest) -> Box<dyn Stepper> {
         match request.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
-                let (expected, request) = (estimate.expectation(), frame.request(request));
-                let duration = expected_duration(&self.made.regime.scene, &estimate, approach);
-                let run = Run::new(bodies, expected, &request);
-                let made = self.made.clone();
-                Box::new(ExplicitStepper { made, frame, expected, duration, request, run })
+                let run = Run::new(bodies, estimate.expectation(), &frame.request(request));
+                ExplicitStepper::of(&self.made, frame, &estimate, run)
             }
             Err(stop) => stopped(*approach, stop),
         }
@@ -312,19 +300,14 @@ impl Model for Explicit {
         let rejected = |error: ModelError| Rejection::new("model.fem", error.to_string());
         let RestartState { contact: run, bounces, approach: met, .. } = state;
         let frame = self.made.own_frame(&met).map_err(rejected)?;
-        let (approach, expected) = (*run.approach(), run.expected());
-        if bounces.is_some() || approach != *frame.own() {
+        if bounces.is_some() || run.approach() != frame.own() {
             return Err(rejected(ModelError::ForeignRestartState));
         }
-        let request = run.request().clone();
-        let bodies = self.bodies_of_run(&run, approach).map_err(rejected)?;
+        let bodies = self.bodies_of_run(&run, *frame.own()).map_err(rejected)?;
         let run = Run::resume(bodies, run).map_err(rejected)?;
-        let regime = &self.made.regime;
-        let estimate = regime.at(approach.speed());
+        let estimate = self.made.regime.at(met.speed());
         let estimate = estimate.map_err(|error| Rejection::new("body", error.to_string()))?;
-        let duration = expected_duration(&regime.scene, &estimate, &approach);
-        let made = self.made.clone();
-        Ok(Box::new(ExplicitStepper { made, frame, expected, duration, request, run }))
+        Ok(ExplicitStepper::of(&self.made, frame, &estimate, run))
     }
 
     fn again(
@@ -334,15 +317,12 @@ impl Model for Explicit {
         request: &OutputRequest,
     ) -> Result<Box<dyn Stepper>, Stop> {
         let not_made = |error: ModelError| Stop::NotMade(error.to_string());
-        let (run, scene) = (&before.contact, &self.made.regime.scene);
+        let run = &before.contact;
         let frame = self.made.own_frame(approach).map_err(not_made)?;
         let estimate = estimate_at(&self.made.regime, approach.speed())?;
         let bodies = self.bodies_of_run(run, *frame.own()).map_err(not_made)?;
-        let (expected, request) = (estimate.expectation(), frame.request(request));
-        let run = Run::again(bodies, expected, &request, run).map_err(not_made)?;
-        let duration = expected_duration(scene, &estimate, approach);
-        let made = self.made.clone();
-        Ok(Box::new(ExplicitStepper { made, frame, expected, duration, request, run }))
+        let run = Run::again(bodies, estimate.expectation(), &frame.request(request), run);
+        Ok(ExplicitStepper::of(&self.made, frame, &estimate, run.map_err(not_made)?))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -358,11 +338,21 @@ impl Model for Explicit {
 struct ExplicitStepper {
     made: Arc<RebuildData>,
     frame: OwnFrame,
-    expected: Expectation,
     /// Time of the run, in seconds.
     duration: f64,
-    request: OutputRequest,
     run: Run<Arc<ExplicitBodies>>,
+}
+
+impl ExplicitStepper {
+    fn of(
+        made: &Arc<RebuildData>,
+        frame: OwnFrame,
+        estimate: &Estimate,
+        run: Run<Arc<ExplicitBodies>>,
+    ) -> Box<dyn Stepper> {
+        let duration = expected_duration(&made.regime.scene, estimate, frame.approach());
+        Box::new(Self { made: made.clone(), frame, duration, run })
+    }
 }
 
 impl Stepper for ExplicitStepper {
@@ -372,12 +362,13 @@ impl Stepper for ExplicitStepper {
             Some(Ending::Stopped(Stop::ContactBeyondCandidates { .. })) => {}
             Some(_) => return false,
         }
-        if self.run.restart_state().made_for() != self.run.model().approach() {
+        let state = self.run.restart_state();
+        if state.made_for() != self.run.model().approach() {
             return false;
         }
         let Some(larger) = self.made.larger(self.run.model()) else { return false };
         monitor.enter(Phase::Collision);
-        self.run = Run::new(Arc::new(larger), self.expected, &self.request);
+        self.run = Run::new(Arc::new(larger), state.expected(), &state.request().clone());
         true
     }
 

@@ -4,9 +4,9 @@
 use fem_case::Switch;
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use super::{Motion, Reduced, ting};
+use super::{Motion, MotionOfScene, ting};
 use crate::effects::{NamedEffect, SurfaceSlip};
-use crate::estimate::regime::Regime;
+use crate::estimate::Regime;
 use crate::rejection::Rejection;
 
 #[derive(Debug)]
@@ -18,8 +18,8 @@ impl Motion for ClosedForm {
     }
 }
 
-/// Builds the model of a scene.
-pub(super) fn build(regime: &Regime, finite_size: bool) -> Result<Reduced, Rejection> {
+/// Returns the motion of a scene.
+pub(super) fn motion(regime: &Regime, finite_size: bool) -> Result<MotionOfScene, Rejection> {
     let Regime { scene, estimate } = regime;
     // Ting's model of elastic bodies is Hertz' with finite size, gravity and a plate.
     let has_plate = scene.bodies().iter().any(|body| body.plate().is_some());
@@ -29,12 +29,12 @@ pub(super) fn build(regime: &Regime, finite_size: bool) -> Result<Reduced, Rejec
         true => Box::new(ClosedForm(estimate.hertz)),
         false => {
             let scene = SurfaceSlip.switched(scene, Some(Switch::Off));
-            Box::new(ting::motion(&scene, estimate, false, finite_size, tolerance)?)
+            Box::new(ting::ting(&scene, estimate, false, finite_size, tolerance)?)
         }
     };
     let description = match is_closed {
         true => "model hertz, a closed form",
         false => "model hertz, one degree of freedom",
     };
-    Reduced::of_motion(regime, *estimate.hertz.pair(), motion, description.to_string())
+    Ok((motion, *estimate.hertz.pair(), description.to_string()))
 }

@@ -8,10 +8,9 @@ use fem_laws::{
     PairRelaxation,
 };
 
-use super::{Motion, Reduced, rejected};
-use crate::estimate::Estimate;
+use super::{Motion, MotionOfScene, rejected};
 use crate::estimate::plate_impact::thin_plate_mobility;
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::rejection::Rejection;
 
 /// Returns the law with Hunt and Crossley's speed (m/s) filled in, at which their restitution holds.
@@ -44,13 +43,13 @@ impl Motion for LawMotion {
     }
 }
 
-/// Builds the model of a scene.
-pub(super) fn build(
+/// Returns the motion of a scene.
+pub(super) fn motion(
     regime: &Regime,
     law: &LawInput,
     end_rule: EndRule,
     tolerance: f64,
-) -> Result<Reduced, Rejection> {
+) -> Result<MotionOfScene, Rejection> {
     let Regime { scene, estimate } = regime;
     let reject = |error: LawError| rejected(scene, &error);
     let (numbers, pair) = law_numbers(scene, estimate, law, end_rule)?;
@@ -68,8 +67,7 @@ pub(super) fn build(
     if let Some(mobility) = thin_plate_mobility(scene) {
         impact = impact.with_plate(mobility).map_err(reject)?;
     }
-    let motion = Box::new(LawMotion { impact, law, numbers });
-    Reduced::of_motion(regime, pair, motion, description)
+    Ok((Box::new(LawMotion { impact, law, numbers }), pair, description))
 }
 
 /// Returns the parameters of a law and the pair that they belong to.

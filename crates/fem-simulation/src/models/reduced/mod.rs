@@ -21,9 +21,8 @@ use crate::effects::{
     Effect, EffectDecision, EffectStatus, PlateBending, RateDependence, Support, decide,
     effect_named,
 };
-use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
-use crate::estimate::regime::Regime;
+use crate::estimate::{Estimate, Regime};
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
 use crate::rejection::Rejection;
 
@@ -119,6 +118,9 @@ pub(super) trait Motion: fmt::Debug + Send + Sync {
     }
 }
 
+/// The motion of a scene, its pair, which has relaxed moduli if a law is a slow limit, and the description of the model.
+type MotionOfScene = (Box<dyn Motion>, Pair, String);
+
 /// A scene with a reduced model, ready to run.
 #[derive(Debug)]
 pub struct Reduced {
@@ -143,29 +145,20 @@ impl Reduced {
     /// # Errors
     /// Those of [`Reduced::new`].
     pub(crate) fn of(regime: &Regime) -> Result<Self, Rejection> {
-        PlateBending::check(&regime.scene)?;
-        match regime.scene.model() {
-            ModelChoice::Hertz { finite_size } => hertz::build(regime, *finite_size),
+        let Regime { scene, estimate } = regime;
+        PlateBending::check(scene)?;
+        let (motion, pair, description) = match scene.model() {
+            ModelChoice::Hertz { finite_size } => hertz::motion(regime, *finite_size),
             ModelChoice::Ting { finite_size, tolerance } => {
-                ting::build(regime, *finite_size, *tolerance)
+                ting::motion(regime, *finite_size, *tolerance)
             }
             ModelChoice::Law { law, end_rule, tolerance } => {
-                law::build(regime, law, *end_rule, *tolerance)
+                law::motion(regime, law, *end_rule, *tolerance)
             }
             ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
                 Err(Rejection::new("model", "finite elements are no reduced model"))
             }
-        }
-    }
-
-    /// Makes the model of a scene from its motion. The pair has relaxed moduli if the law is a slow limit.
-    pub(super) fn of_motion(
-        regime: &Regime,
-        pair: Pair,
-        motion: Box<dyn Motion>,
-        description: String,
-    ) -> Result<Self, Rejection> {
-        let Regime { scene, estimate } = regime;
+        }?;
         let support = |effect: &dyn Effect| effects::support(effect, scene, estimate, motion.law());
         let decisions = decide(scene, estimate, support)?;
         let setup = ModelSetup {
@@ -179,11 +172,6 @@ impl Reduced {
             elements: None,
         };
         Ok(Self { setup, scene: scene.clone(), motion, pair })
-    }
-
-    /// Returns the scene of the model.
-    pub fn scene(&self) -> &Scene {
-        &self.scene
     }
 
     /// Returns the stiffness and dashpot of a law.

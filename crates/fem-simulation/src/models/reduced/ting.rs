@@ -3,13 +3,12 @@
 use fem_case::Scene;
 use fem_laws::{Impact, LawError, Ting};
 
-use super::{Motion, Reduced, rejected};
+use super::{Motion, MotionOfScene, rejected};
 use crate::effects::PartnerWaves;
-use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
-use crate::estimate::regime::Regime;
 use crate::estimate::semi_infinite_partner::radiating_impact;
 use crate::estimate::viscous_flow;
+use crate::estimate::{Estimate, Regime};
 use crate::rejection::Rejection;
 
 impl Motion for Ting {
@@ -59,22 +58,22 @@ fn with_gravity(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
     }
 }
 
-/// Builds the model of a scene.
-pub(super) fn build(
+/// Returns the motion of a scene.
+pub(super) fn motion(
     regime: &Regime,
     finite_size: bool,
     tolerance: f64,
-) -> Result<Reduced, Rejection> {
+) -> Result<MotionOfScene, Rejection> {
     let Regime { scene, estimate } = regime;
     viscous_flow::check(scene, estimate)?;
-    let ting = motion(scene, estimate, true, finite_size, tolerance)?;
+    let ting = ting(scene, estimate, true, finite_size, tolerance)?;
     let motion = Box::new(WithRadiation { ting, regime: regime.clone(), finite_size, tolerance });
     let description = "model ting, one degree of freedom".to_string();
-    Reduced::of_motion(regime, *estimate.hertz.pair(), motion, description)
+    Ok((motion, *estimate.hertz.pair(), description))
 }
 
 /// Returns Ting's model of a scene; without relaxation its materials are elastic with the instantaneous moduli.
-pub(super) fn motion(
+pub(super) fn ting(
     scene: &Scene,
     estimate: &Estimate,
     relaxes: bool,
