@@ -95,17 +95,6 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
             };
             Some(format!("a sphere has a diameter, which is twice the radius: diameter = {twice}"))
         }
-        "friction" | "friction_coefficient"
-            if ["", "contact", "body", "material"].contains(&first) =>
-        {
-            Some(
-                "contact is frictionless here, since friction is not computed: remove the key"
-                    .into(),
-            )
-        }
-        "spin" | "rotation" | "angular_velocity" | "omega" => Some(
-            "the collision is head-on and without spin: remove the key".into(),
-        ),
         "velocity" | "speed" | "initial_velocity" | "impact_speed" | "v" if first == "body" => {
             let number = split_unit(value.trim_matches(['"', '\''])).0;
             let sign = match number < 0.0 {
@@ -115,46 +104,63 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
             let value = value.trim_start_matches(['-']).replacen("\"-", "\"", 1);
             Some(format!("a body has an approach speed{sign}: approach_speed = {value}"))
         }
-        "restitution" | "coefficient_of_restitution" | "cor" | "e"
-            if ["", "body", "contact", "material", "model"].contains(&first) => Some(
-            "the restitution is a result, not an input: give the material a relaxation or a yield strength, or a law \
-             in [model] whose damping fem-run invert finds for a restitution"
-                .into(),
-        ),
         "damping" | "viscosity" | "loss_factor" if first != "model" => Some(
             "losses come from [material.NAME.relaxation], from [material.NAME] yield_strength or from a law in [model]"
                 .into(),
         ),
-        "mass" if ["body", "material"].contains(&first) => Some(
-            "the mass follows from the diameter and the density of the material: remove the key; nearest to a striker \
-             that is heavier than its tip: a material of its own with the mean density"
-                .into(),
-        ),
-        "thickness" | "wall_thickness" | "shell_thickness" | "inner_diameter" | "inner_radius" | "hollow"
-            if first == "body" && !inner.ends_with(".plate") => Some(
-            "hollow balls are not computed; nearest: a solid one of the mean density, with measured numbers in the law \
-             of [model], such as law = { linear = { k = \"20 kN/m\", e = 0.9 } }"
-                .into(),
-        ),
-        "support" if ["clamped", "fixed", "simply_supported", "hinged"].contains(&value.trim_matches(['"', '\''])) => {
-            Some(
-                "the edge of a plate is free, no other one is computed; nearest: a plate without diameter and support, \
-                 which is right as long as no wave returns from the edge"
-                    .into(),
-            )
-        }
         "E" | "e_modulus" | "elastic_modulus" | "modulus" | "stiffness" if first == "material" => {
             Some(format!("the key is youngs_modulus = {value}"))
         }
         "nu" | "ν" if first == "material" => Some(format!("the key is poissons_ratio = {value}")),
         "rho" | "ρ" if first == "material" => Some(format!("the key is density = {value}")),
-        "gravity" if table == "effects" => Some("the table [gravity] switches gravity on".into()),
-        _ if KEYS_OF_CASE.contains(&first) && KEYS_OF_CASE.contains(&key) => Some(format!(
-            "`{key}` belongs to the case, and this line is in the table {table}: write it above the first [table] of \
-             the file, or as a table [{key}] of its own"
-        )),
-        _ => None,
+        _ => not_computed(first, inner, key, value).map(str::to_string).or_else(|| {
+            let is_of_case = KEYS_OF_CASE.contains(&first) && KEYS_OF_CASE.contains(&key);
+            is_of_case.then(|| {
+                format!(
+                    "`{key}` belongs to the case, and this line is in the table {table}: write it above the first \
+                     [table] of the file, or as a table [{key}] of its own"
+                )
+            })
+        }),
     }
+}
+
+/// Returns why there is no such key, and what comes nearest to it. `first` and `inner` are the parts of the table's path.
+fn not_computed(first: &str, inner: &str, key: &str, value: &str) -> Option<&'static str> {
+    let value = value.trim_matches(['"', '\'']);
+    Some(match key {
+        "friction" | "friction_coefficient"
+            if ["", "contact", "body", "material"].contains(&first) =>
+        {
+            "contact is frictionless here, since friction is not computed: remove the key"
+        }
+        "spin" | "rotation" | "angular_velocity" | "omega" => {
+            "the collision is head-on and without spin: remove the key"
+        }
+        "restitution" | "coefficient_of_restitution" | "cor" | "e"
+            if ["", "body", "contact", "material", "model"].contains(&first) =>
+        {
+            "the restitution is a result, not an input: give the material a relaxation or a yield strength, or a law \
+             in [model] whose damping fem-run invert finds for a restitution"
+        }
+        "mass" if ["body", "material"].contains(&first) => {
+            "the mass follows from the diameter and the density of the material: remove the key; nearest to a striker \
+             that is heavier than its tip: a material of its own with the mean density"
+        }
+        "thickness" | "wall_thickness" | "shell_thickness" | "inner_diameter" | "inner_radius"
+        | "hollow"
+            if first == "body" && !inner.ends_with(".plate") =>
+        {
+            "hollow balls are not computed; nearest: a solid one of the mean density, with measured numbers in the law \
+             of [model], such as law = { linear = { k = \"20 kN/m\", e = 0.9 } }"
+        }
+        "support" if ["clamped", "fixed", "simply_supported", "hinged"].contains(&value) => {
+            "the edge of a plate is free, no other one is computed; nearest: a plate without diameter and support, \
+             which is right as long as no wave returns from the edge"
+        }
+        "gravity" if first == "effects" => "the table [gravity] switches gravity on",
+        _ => return None,
+    })
 }
 
 /// Translates an error of deserializing the tree of `document`.

@@ -178,13 +178,13 @@ impl Check<'_> {
 }
 
 impl Check<'_> {
-    /// Returns the law of a family from the keys that are given: those of exactly one of its sets.
-    fn law_input(
+    /// Returns the set of keys of a law that holds those that are given.
+    fn law_keys(
         &self,
         family: LawFamily,
         path: &str,
-        given: Vec<(&'static str, f64)>,
-    ) -> Result<LawInput, CaseError> {
+        given: &[(&'static str, f64)],
+    ) -> Result<KeySet, CaseError> {
         let sets = family.key_sets();
         let is_in = |set: &KeySet, key: &str| set.iter().any(|(own, _)| *own == key);
         let with = |keys: &[(&str, f64)]| {
@@ -212,7 +212,17 @@ impl Check<'_> {
             let required = set.iter().filter(|(_, need)| *need == KeyNeed::Required);
             required.filter(|(key, _)| given.iter().all(|(own, _)| own != key)).count()
         };
-        let set = with(&given).into_iter().min_by_key(missing).copied().unwrap_or(&[]);
+        Ok(with(given).into_iter().min_by_key(missing).copied().unwrap_or(&[]))
+    }
+
+    /// Returns the law of a family from the keys that are given: those of exactly one of its sets.
+    fn law_input(
+        &self,
+        family: LawFamily,
+        path: &str,
+        given: Vec<(&'static str, f64)>,
+    ) -> Result<LawInput, CaseError> {
+        let set = self.law_keys(family, path, &given)?;
         let value = |key: &str| given.iter().find(|(own, _)| *own == key).map(|(_, value)| *value);
         let mut values = Vec::new();
         for &(key, need) in set {
