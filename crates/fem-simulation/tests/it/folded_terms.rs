@@ -139,7 +139,8 @@ fn models_without_relaxation_lack_it_beside_folded_terms() {
     }
 }
 
-/// A law that takes its damping from the materials as their slow limit is off by its error bar where they relax within the contact.
+/// The error bar of a law that takes its damping from the materials as their slow limit reaches Ting's impact where they relax within
+/// the contact.
 #[test]
 fn the_slow_limit_has_an_error_bar() {
     for time in ["1 us", "5 us", "20 us", "60 us"] {
