@@ -21,7 +21,7 @@ def test_a_file_needs_the_units_of_unlikely_numbers(tmp_path, case):
     path.write_text(case.with_({"body.0.sphere.diameter": 10.0}).to_toml())
     assert '"10.0 m"' in fem_run.Case.load(path).to_toml()
     path.write_text(path.read_text().replace('"10.0 m"', "10.0"))
-    with pytest.raises(fem_run.InputError, match='diameter = "10 mm"'):
+    with pytest.raises(fem_run.InputError, match='diameter = "10.0 mm"'):
         fem_run.Case.load(path)
 
 
