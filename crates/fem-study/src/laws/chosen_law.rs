@@ -282,7 +282,8 @@ impl ChosenLaw {
 
     /// Returns the least and the largest value of a strength, SI, with which the law gives the mean of restitutions with weights within its
     /// own error; `values` are the found ones. The upper end is infinite if bodies that do not flow have that mean too, within the
-    /// `uncertainty` of the mean. Both ends are the found value for another parameter.
+    /// `uncertainty` of the mean, and the lower end is 0 if the law's error is not known. Both ends are the found value for another
+    /// parameter.
     pub(super) fn range(
         &self,
         scene: &Scene,
@@ -294,6 +295,11 @@ impl ChosenLaw {
         let (family, found) = (self.family(), values[index]);
         if family.strength_parameter() != Some(index) {
             return (found, found);
+        }
+        let is_known =
+            |(point, _): &(Point, f64)| self.error_at(scene, values, point.speed).is_finite();
+        if !points.iter().all(is_known) {
+            return (0.0, f64::INFINITY);
         }
         // The sum of the distances of the law's restitutions from the measured ones beyond its error, upwards or downwards.
         let beyond = |value: f64, sign: f64, uncertainty: f64| {

@@ -142,7 +142,7 @@ impl<'a> LawFit<'a> {
                 let index = problem.free[j].index;
                 let (low, high) = law.range(case.scene(), index, values, &weighted, scatter);
                 self.by_law[j] = (values[index] / low).max(high / values[index]).ln();
-                self.at_least = (high == f64::INFINITY).then_some(low);
+                self.at_least = (high == f64::INFINITY && low > 0.0).then_some(low);
             }
         }
         for (j, (estimate, free)) in self.fit.estimates.iter_mut().zip(&problem.free).enumerate() {

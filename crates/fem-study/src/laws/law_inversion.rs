@@ -105,7 +105,7 @@ impl LawInversion {
     /// Returns the least value, SI, if the restitution is that of all larger ones too, within the error of the law.
     pub fn at_least(&self, solution: usize) -> Option<f64> {
         let (low, high) = self.by_law[solution];
-        (high == f64::INFINITY).then_some(low)
+        (high == f64::INFINITY && low > 0.0).then_some(low)
     }
 
     /// Returns the error of a solution, SI, by that of the law.

@@ -197,6 +197,9 @@ fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
         let shown = match (solved.at_least(k), solved.standard_error(k)) {
             (Some(least), _) => format!("≥ {}", show_value(least, parameter.unit)),
             (None, error @ Some(_)) => with_error(value, error, parameter.unit),
+            (None, None) if solved.error_by_law(k).is_infinite() => {
+                format!("{} ± ?", show_value(value, parameter.unit))
+            }
             (None, None) => show_value(value, parameter.unit),
         };
         [
@@ -228,6 +231,7 @@ fn parts_of(solved: &LawInversion) -> Vec<[String; 4]> {
         true => {
             format!("{} to {}", show_value(*low, parameter.unit), show_value(*high, parameter.unit))
         }
+        false if *low == 0.0 => "not known".to_string(),
         false => "any stronger body does not flow".to_string(),
     };
     let by_law =
