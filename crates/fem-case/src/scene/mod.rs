@@ -278,14 +278,6 @@ impl Scene {
         self.work_of_adhesion().value() * of_work
     }
 
-    /// Returns the uncertainty of the yield strength of a body, Pa; 0 if the case gives none.
-    pub fn strength_uncertainty(&self, body: &Body) -> f64 {
-        let is_it = |input: &&UncertainInput| {
-            input.key.ends_with("yield_strength") && Some(input.value) == body.yield_strength()
-        };
-        self.inputs.iter().find(is_it).map_or(0.0, |input| input.uncertainty)
-    }
-
     /// Returns the factor on the number of elements per length that the plan chooses. It is above one after a result missed
     /// its tolerance. It is not a key of a case: a resolved case has the element size.
     pub fn refinement(&self) -> f64 {
