@@ -24,6 +24,8 @@ const EXPONENTS: (f64, f64) = (0.4, 1.1);
 const CURVE_SPEEDS: usize = 80;
 /// Error of another law that dents over that of the mean-pressure law, below which flow does not explain data.
 const FAR_FROM_ELEMENTS: f64 = 0.5;
+/// Number of points that stand for all of them where a law's own error is computed.
+const GROUPS: usize = 8;
 /// Larger misfits, in multiples of the variances, are not scatter.
 const LARGE_CHI_SQUARE: f64 = 2.0;
 
@@ -112,44 +114,69 @@ impl<'a> LawFit<'a> {
         self.inputs = InputPart::of(case, keys.len(), &[SPEED], |case| {
             refit(&law.in_case(case).ok()?, points)
         });
-        // The error of a law has one sign at all speeds.
-        let error = |point: &Point| law.error_at(case.scene(), &self.fit.values, point.speed);
-        let errors: Vec<f64> = points.iter().map(error).collect();
-        if errors.iter().any(|error| *error != 0.0) {
+        if let Some(strength) = law.family().strength_parameter() {
+            let (values, scatter) = (&self.fit.values, self.scatter());
+            let groups = self.groups();
+            let (low, high) = law.range(case.scene(), strength, values, &groups, scatter);
+            let of_strength = (values[strength] / low).max(high / values[strength]).ln();
+            self.at_least = (high == f64::INFINITY && low > 0.0).then_some(low);
+            // The error of a law has one sign at all speeds. Where larger restitutions fit any strength, no interval has an end.
+            let error = |(point, _): &(Point, f64)| {
+                (point.speed, law.error_at(case.scene(), values, point.speed))
+            };
+            let errors: Vec<(f64, f64)> = groups.iter().map(error).collect();
             let shifted = |sign: f64| {
-                let shifted = points.iter().zip(&errors).map(|(point, error)| Point {
-                    restitution: (point.restitution + sign * error).clamp(0.0, 1.0),
-                    ..*point
-                });
-                let is_known = errors.iter().all(|error| error.is_finite());
-                is_known.then(|| refit(law, &shifted.collect::<Vec<_>>()))?
+                let nearest = |speed: f64| {
+                    let distance = |it: &&(f64, f64)| (it.0 / speed).ln().abs();
+                    errors.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+                };
+                let shifted = |point: &Point| {
+                    let error = nearest(point.speed).map_or(f64::NAN, |(_, error)| *error);
+                    let restitution = (point.restitution + sign * error).clamp(0.0, 1.0);
+                    error.is_finite().then_some(Point { restitution, ..*point })
+                };
+                refit(law, &points.iter().map(shifted).collect::<Option<Vec<_>>>()?)
             };
-            // Where the larger restitutions fit any strength, no interval has an end.
-            self.by_law = match [shifted(1.0), shifted(-1.0)] {
-                [Some(above), Some(below)] => {
+            let others = match problem.free.iter().all(|free| free.index == strength) {
+                true => Some(vec![0.0]),
+                false => shifted(1.0).zip(shifted(-1.0)).map(|(above, below)| {
                     above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect()
-                }
-                _ => vec![f64::NAN; keys.len()],
+                }),
             };
-            let weighted = points.iter().zip(self.weights()).map(|(point, weight)| {
-                let uncertainty = point.restitution_uncertainty.unwrap_or(1.0);
-                (*point, weight / (uncertainty * uncertainty))
-            });
-            let weighted: Vec<(Point, f64)> = weighted.collect();
-            let is_strength = |it: &&Free| Some(it.index) == law.family().strength_parameter();
-            if let Some(j) = problem.free.iter().position(|free| is_strength(&free)) {
-                let (values, scatter) = (&self.fit.values, self.scatter());
-                let index = problem.free[j].index;
-                let (low, high) = law.range(case.scene(), index, values, &weighted, scatter);
-                self.by_law[j] = (values[index] / low).max(high / values[index]).ln();
-                self.at_least = (high == f64::INFINITY && low > 0.0).then_some(low);
-            }
+            let others = others.unwrap_or_else(|| vec![f64::NAN; keys.len()]);
+            let of_free = |(free, other): (&Free, f64)| match free.index == strength {
+                true => of_strength,
+                false => other,
+            };
+            self.by_law = problem.free.iter().zip(others).map(of_free).collect();
         }
         for (j, (estimate, free)) in self.fit.estimates.iter_mut().zip(&problem.free).enumerate() {
             let error = InputPart::sum(&self.inputs, j).hypot(self.by_law[j]);
             estimate.widen(error, problem.is_logarithmic(free), self.confidence);
         }
         self
+    }
+
+    /// Returns a few points that stand for neighbours in speed, with the sums of their weights: the error of a law is a smooth function
+    /// of the speed and takes milliseconds.
+    fn groups(&self) -> Vec<(Point, f64)> {
+        let weighted = self.data.points.iter().zip(self.weights()).map(|(point, weight)| {
+            let uncertainty = point.restitution_uncertainty.unwrap_or(1.0);
+            (*point, weight / (uncertainty * uncertainty))
+        });
+        let mut weighted: Vec<(Point, f64)> = weighted.collect();
+        weighted.sort_by(|a, b| a.0.speed.total_cmp(&b.0.speed));
+        let n_each = weighted.len().div_ceil(GROUPS).max(1);
+        let group = |all: &[(Point, f64)]| {
+            let sum = |of: fn(&Point) -> f64| {
+                all.iter().map(|(point, weight)| weight * of(point)).sum::<f64>()
+            };
+            let weight = sum(|_| 1.0);
+            let speed = (sum(|point| point.speed.ln()) / weight).exp();
+            (Point::new(speed, sum(|point| point.restitution) / weight), weight)
+        };
+        let groups = weighted.chunks(n_each).map(group);
+        groups.filter(|(_, weight)| *weight > 0.0).collect()
     }
 
     /// Returns the change of a free parameter, SI, for a small change of its θ.
