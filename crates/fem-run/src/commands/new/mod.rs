@@ -63,11 +63,11 @@ pub struct Arguments {
 enum Partner {
     /// The target is another sphere
     Sphere,
-    /// A rigid plane
+    /// The target is a rigid plane
     Wall,
-    /// A half-space
+    /// The target is a half-space
     HalfSpace,
-    /// A plate
+    /// The target is a plate
     Plate,
 }
 
