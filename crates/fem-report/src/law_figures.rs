@@ -141,12 +141,7 @@ pub fn histories_figure(
 
 /// Returns m*/m_k, the share of a change of the relative velocity that the body of this index takes.
 fn mass_share(scene: &Scene, k: usize) -> f64 {
-    let mass = |index: usize| {
-        let body = &scene.bodies()[index];
-        body.diameter().zip(body.material()).map_or(f64::INFINITY, |(diameter, material)| {
-            fem_laws::sphere_mass(diameter, material.density())
-        })
-    };
+    let mass = |index: usize| scene.bodies()[index].mass().unwrap_or(f64::INFINITY);
     1.0 / (1.0 + mass(k) / mass(1 - k))
 }
 

@@ -34,7 +34,7 @@ const RANGES: &[(&str, &[&str], Range)] = &[
     ("SwiftTable", &["exponent"], Range::HARDENING_EXPONENT),
     ("JohnsonCookTable", &["c"], Range::NOT_NEGATIVE),
     ("JohnsonCookTable", &["reference_rate"], Range::POSITIVE),
-    ("SphereTable", &["diameter"], Range::POSITIVE),
+    ("SphereTable", &["diameter", "mass"], Range::POSITIVE),
     ("PlateTable", &["thickness", "diameter"], Range::POSITIVE),
     ("GravityTable", &["acceleration"], Range::POSITIVE),
     ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"], Range::POSITIVE),

@@ -58,7 +58,6 @@ macro_rules! kinds {
         /// The dimensions that have a name; those of a case file come first.
         const NAMED: &[(&str, [i32; 4])] = &[
             $(($name, $dimension),)+
-            ("a mass", [0, 1, 0, 0]),
             ("an area", [2, 0, 0, 0]),
             ("a volume", [3, 0, 0, 0]),
             ("a force", [1, 1, -2, 0]),
@@ -71,6 +70,7 @@ macro_rules! kinds {
 kinds! {
     Number, "a plain number", [0, 0, 0, 0], "", "0.2";
     Length, "a length", [1, 0, 0, 0], "m", "\"22.2 mm\"";
+    Mass, "a mass", [0, 1, 0, 0], "kg", "\"10 g\"";
     Speed, "a speed", [1, 0, -1, 0], "m/s", "\"0.5 m/s\"";
     Acceleration, "an acceleration", [1, 0, -2, 0], "m/s^2", "\"9.81 m/s^2\"";
     Density, "a density", [-3, 1, 0, 0], "kg/m^3", "\"2390 kg/m^3\"";

@@ -13,6 +13,7 @@ use crate::source::toml_syntax::{join, quote_key};
 pub struct Body {
     pub(crate) name: String,
     pub(crate) shape: Shape,
+    pub(crate) own_mass: Option<f64>,
     pub(crate) velocity: f64,
     pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
@@ -142,19 +143,18 @@ impl Body {
 
     /// Returns the body for closed forms, with instantaneous moduli; a plate is a half-space to the contact.
     pub fn partner(&self) -> Partner {
+        let sphere = |diameter: f64, plane_strain_modulus| {
+            let mass = self.mass().filter(|_| !self.held).unwrap_or(f64::INFINITY);
+            Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus }
+        };
         match &self.shape {
-            Shape::Sphere { diameter, material, .. } if self.held => {
-                Partner::solid_sphere(*diameter, material).held()
+            Shape::Sphere { diameter, material, .. } => {
+                sphere(*diameter, material.instantaneous().plane_strain_modulus())
             }
-            Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
             Shape::HalfSpace { material } | Shape::Plate { material, .. } => {
                 Partner::half_space(material)
             }
-            Shape::Rigid { diameter, mass } => {
-                let mass = if self.held { f64::INFINITY } else { *mass };
-                let (radius, plane_strain_modulus) = (0.5 * diameter, f64::INFINITY);
-                Partner::Sphere { radius, mass, plane_strain_modulus }
-            }
+            Shape::Rigid { diameter, .. } => sphere(*diameter, f64::INFINITY),
             Shape::Wall => Partner::Wall,
         }
     }
@@ -170,15 +170,26 @@ impl Body {
         }
     }
 
+    /// Returns the mass that the case gives a sphere in place of that of its material, kg.
+    pub fn own_mass(&self) -> Option<f64> {
+        self.own_mass
+    }
+
+    /// Returns the mean density of a sphere, kg/m³: that of the material, or of the mass that the case gives.
+    pub fn mean_density(&self) -> Option<f64> {
+        let of_own = || Some(self.own_mass? / fem_laws::sphere_mass(self.diameter()?, 1.0));
+        of_own().or_else(|| Some(self.material()?.density()))
+    }
+
     /// Returns the mass, kg; a flat body has none, since it does not move as a whole.
     pub fn mass(&self) -> Option<f64> {
-        match &self.shape {
+        self.own_mass.or_else(|| match &self.shape {
             Shape::Sphere { diameter, material, .. } => {
                 Some(fem_laws::sphere_mass(*diameter, material.density()))
             }
             Shape::Rigid { mass, .. } => Some(*mass),
             Shape::HalfSpace { .. } | Shape::Plate { .. } | Shape::Wall => None,
-        }
+        })
     }
 
     /// Returns the diameter of a sphere, m; a flat body has none.

@@ -1,6 +1,6 @@
 //! `[[body]]` as written.
 
-use crate::quantity::{Length, Quantity, Speed};
+use crate::quantity::{Length, Mass, Quantity, Speed};
 use crate::schema::macros::keywords;
 use serde::{Deserialize, Serialize};
 
@@ -104,6 +104,10 @@ impl BodyTable {
 pub struct SphereTable {
     /// Diameter, > 0.
     pub diameter: Quantity<Length>,
+    /// Mass, > 0, of a striker that is heavier than its tip; that of the material's density if absent. Models without elements have
+    /// it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass: Option<Quantity<Mass>>,
     /// A mesh file instead of the built-in mesh; relative to the case file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<String>,
@@ -112,7 +116,7 @@ pub struct SphereTable {
 impl SphereTable {
     /// Creates a sphere with the built-in mesh.
     pub fn new(diameter: impl Into<Quantity<Length>>) -> Self {
-        Self { diameter: diameter.into(), mesh: None }
+        Self { diameter: diameter.into(), mass: None, mesh: None }
     }
 }
 

@@ -144,8 +144,8 @@ fn not_computed(first: &str, inner: &str, key: &str, value: &str) -> Option<&'st
              in [model] whose damping fem-run invert finds for a restitution"
         }
         "mass" if ["body", "material"].contains(&first) => {
-            "the mass follows from the diameter and the density of the material: remove the key; nearest to a striker \
-             that is heavier than its tip: a material of its own with the mean density"
+            "the mass follows from the diameter and the density of the material: remove the key; a striker that is \
+             heavier than its tip: sphere = { diameter = \"10 mm\", mass = \"100 g\" }"
         }
         "thickness" | "wall_thickness" | "shell_thickness" | "inner_diameter" | "inner_radius"
         | "hollow"

@@ -67,13 +67,15 @@ impl Check<'_> {
             self.approach([lower_speed, upper_speed])?;
         }
         // Adding to 0 gives a body at rest the velocity 0, never -0.
-        let lower = (lower, lower_shape, 0.0 + lower_speed);
-        let upper = (upper, upper_shape, 0.0 - upper_speed);
-        let body = |(table, shape, velocity): (&BodyTable, _, _)| {
+        let lower = ("body.0.sphere.mass", lower, lower_shape, 0.0 + lower_speed);
+        let upper = ("body.1.sphere.mass", upper, upper_shape, 0.0 - upper_speed);
+        let body = |(path, table, shape, velocity): (&str, &BodyTable, _, _)| {
+            let own_mass = table.sphere.as_ref().and_then(|sphere| sphere.mass.as_ref());
             let material = table.material.as_ref().and_then(|name| materials.get(name.as_str()));
-            Body {
+            Ok(Body {
                 name: table.name.clone(),
                 shape,
+                own_mass: self.optional(path, own_mass, Range::POSITIVE)?,
                 velocity,
                 held: table.held.unwrap_or_default(),
                 yield_strength: material.and_then(|material| material.yield_strength),
@@ -82,9 +84,9 @@ impl Check<'_> {
                 material_name: table.material.clone(),
                 library_material: library_material(file, table),
                 measured: material.and_then(|material| material.measured.clone()),
-            }
+            })
         };
-        Ok([body(lower), body(upper)])
+        Ok([body(lower)?, body(upper)?])
     }
 
     /// Checks that bodies with these approach speeds, m/s, meet.

@@ -151,6 +151,11 @@ fn other_names_of_materials_are_known() {
         ("Fused Silica", "lib:fused-silica", 2200.0),
         ("PDMS", "lib:silicone", 1030.0),
         ("100Cr6", "lib:bearing-steel", 7900.0),
+        ("HDPE", "lib:polyethylene", 950.0),
+        ("teflon", "lib:ptfe", 2170.0),
+        ("Delrin", "lib:pom", 1420.0),
+        ("zirconium dioxide", "lib:zirconia", 6050.0),
+        ("quartz sand", "lib:quartz", 2650.0),
     ] {
         let body = format!("body.1.material='lib:{name}'");
         assert_eq!(name_of(&[&body]), (own.to_string(), density));

@@ -120,7 +120,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.publish(&found.numbers(), |kept| {
         let table = kept.path(&file).map_or(String::new(), |path| {
             let (material, path) = (arguments.material(&found), shown(&path).replace('\\', "/"));
-            format!("\n{material}relaxation = {{ file = \"{path}\" }}\n")
+            let other = other_temperature(&found);
+            format!("\n{material}relaxation = {{ file = \"{path}\" }}\n{other}")
         });
         answer(&found) + &shifts(&found) + &terms(&found) + &table
     })
@@ -213,6 +214,18 @@ fn shifts(found: &FoundRelaxation) -> String {
         text += &format!("; misses log10 a_T by up to {:.2}\n", fitted.largest_deviation);
     }
     text + "\n"
+}
+
+/// Returns the line by which a case uses the series at another temperature, here the measured one that is farthest away.
+fn other_temperature(found: &FoundRelaxation) -> String {
+    let Some(superposition) = &found.superposition else { return String::new() };
+    let reference = found.temperature.unwrap_or_default();
+    let distance = |block: &&Block| (block.temperature - reference).abs();
+    let far = superposition.blocks.iter().max_by(|a, b| distance(a).total_cmp(&distance(b)));
+    far.map_or(String::new(), |far| {
+        let celsius = far.temperature - ZERO_CELSIUS;
+        format!("# at another temperature, above all tables: scene.temperature = \"{celsius:.0} degC\"\n")
+    })
 }
 
 /// Returns the table of terms.

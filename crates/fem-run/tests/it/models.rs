@@ -24,6 +24,33 @@ const MODELS: [&str; 4] = [
     "model.law.kuwabara_kono.a='1 us'",
 ];
 
+/// A striker of a given mass moves as one of the density that gives it; elements name that density.
+#[test]
+fn a_sphere_may_have_a_mass_of_its_own() {
+    let place = Place::new();
+    for model in MODELS {
+        let own = summary(&place, &[model, "body.0.sphere.mass='100 g'"]);
+        assert_eq!(own["bodies"][0]["mass_kg"], 0.1, "{model}");
+        let volume = std::f64::consts::PI / 6.0 * 0.0222_f64.powi(3);
+        let density = format!("material.heavy.density={}", 0.1 / volume);
+        let moduli = "material.heavy={density=1, youngs_modulus='63 GPa', poissons_ratio=0.244, \
+                      relaxation={acts_on='all', terms=[{weight=1.0, decay_rate='2708 1/s'}]}}";
+        let heavy = summary(&place, &[model, moduli, &density, "body.0.material='heavy'"]);
+        for key in ["restitution", "contact_time_s", "peak_force_n", "max_approach_m"] {
+            let [own, heavy] = [&own, &heavy].map(|it| number(&it[key]));
+            assert!((own / heavy - 1.0).abs() < 1e-9, "{model} {key}: {own} {heavy}");
+        }
+    }
+    for model in ["model.fem={}", "model.condensed={}"] {
+        let refused = place.fails(2, ("case.toml", set(&["body.0.sphere.mass='100 g'", model])));
+        refused.tells("elements have the density of their material|density = \"17456 kg/m^3\"");
+    }
+    let chosen = summary(&place, &["body.0.sphere.mass='100 g'", "model.auto={}"]);
+    let model = chosen["case"]["model"].as_object().unwrap();
+    assert!(model.contains_key("ting") || model.contains_key("hertz"), "{model:?}");
+    place.fails(2, "case.toml --set body.0.sphere.mass=0").tells("greater than 0");
+}
+
 #[test]
 fn every_model_writes_the_same_keys_and_columns() {
     let place = Place::new();

@@ -10,7 +10,7 @@ pub(crate) mod viscous_flow;
 
 use std::borrow::Cow;
 
-use fem_case::{Body, ModelChoice, Scene, Shape};
+use fem_case::{Body, ModelChoice, Scene};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
 use fem_material::engineering::{number, show};
@@ -267,17 +267,17 @@ fn ringing(scene: &Scene, contact_time: f64) -> f64 {
 
 /// Returns the pair with the moduli at a time (s) after a sudden load, at least a share `least` of the instantaneous ones.
 pub(crate) fn pair_at(scene: &Scene, time: f64, least: f64) -> Result<Pair, LawError> {
-    let [first, second] = scene.bodies().each_ref().map(|body| match body.shape() {
-        Shape::Sphere { diameter, material, .. } => {
-            let mass = fem_laws::sphere_mass(*diameter, material.density());
-            let plane_strain_modulus = modulus_at(material, time, least);
-            let sphere = Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus };
-            if body.is_held() { sphere.held() } else { sphere }
+    let [first, second] = scene.bodies().each_ref().map(|body| {
+        let mut partner = body.partner();
+        if let (
+            Partner::Sphere { plane_strain_modulus, .. }
+            | Partner::HalfSpace { plane_strain_modulus },
+            Some(material),
+        ) = (&mut partner, body.material())
+        {
+            *plane_strain_modulus = modulus_at(material, time, least);
         }
-        Shape::HalfSpace { material } | Shape::Plate { material, .. } => {
-            Partner::HalfSpace { plane_strain_modulus: modulus_at(material, time, least) }
-        }
-        Shape::Rigid { .. } | Shape::Wall => body.partner(),
+        partner
     });
     Pair::new(first, second)
 }

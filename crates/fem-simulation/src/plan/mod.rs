@@ -9,6 +9,7 @@ pub(crate) mod mesh_source;
 pub(crate) mod pair_cache;
 pub(crate) mod penalty_compliance;
 
+use fem_case::engineering::number;
 use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, SnapshotsValue, StartTable,
     TimeTable,
@@ -106,6 +107,21 @@ pub struct Plan {
 /// The first words of the warning about a tolerance that no mesh meets.
 const UNREACHABLE: &str = "accuracy.tolerance cannot be met";
 
+/// Rejects a sphere with a mass of its own, which elements would have to place somewhere in the body.
+fn check_masses(scene: &Scene) -> Result<(), Rejection> {
+    let has_own = |body: &&Body| body.own_mass().is_some();
+    let Some(body) = scene.bodies().iter().find(has_own) else { return Ok(()) };
+    let density = body.mean_density().map_or(String::new(), |it| number(it, 5));
+    let key = format!("body.{}.sphere.mass", usize::from(body == &scene.bodies()[1]));
+    let message = format!(
+        "elements have the density of their material; {} has a mass of its own",
+        body.name()
+    );
+    Err(Rejection::new(key, message).with_help(format!(
+        "use [model] ting, hertz, law or auto; or remove the key and give the material density = \"{density} kg/m^3\""
+    )))
+}
+
 impl Plan {
     /// Returns the plan of a scene.
     ///
@@ -123,6 +139,7 @@ impl Plan {
         let Regime { scene, estimate } = regime;
         viscous_flow::check(scene, estimate)?;
         PlateBending::check(scene)?;
+        check_masses(scene)?;
         let finer_body = finer_body(scene);
         let rule = MeshRule::of(scene, estimate, finer_body.is_some());
         let is_shared = touches_at_nodes(scene.model());

@@ -189,6 +189,9 @@ fn timeless(points: &[Point]) -> Vec<Point> {
 
 /// Returns the spheres of a scene: two, or the one that strikes a wall.
 fn spheres(scene: &Scene) -> Vec<Sphere> {
-    let sphere = |body: &Body| Some(Sphere::new(body.diameter()?, body.material()?));
+    let sphere = |body: &Body| {
+        let sphere = Sphere::new(body.diameter()?, body.material()?);
+        Some(Sphere { density: body.mean_density()?, ..sphere })
+    };
     scene.bodies().iter().filter_map(sphere).collect()
 }

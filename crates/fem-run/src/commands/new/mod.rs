@@ -4,7 +4,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use fem_case::{CASE_SCHEMA, Case};
+use fem::measured::{Kind, NotMeasured, parse_measured};
+use fem_case::{CASE_SCHEMA, Case, library};
 
 use crate::arguments::case::stem_of;
 use crate::commands::materials;
@@ -20,7 +21,7 @@ const RELAXATION: &str = include_str!("relaxation.toml");
 /// A flow rule for a material with a yield strength, commented out.
 const FLOW: &str = include_str!("flow.toml");
 
-/// Gravity for a sphere above a resting body, commented out.
+/// Gravity for a sphere above a resting body, commented out unless the ball is dropped.
 const GRAVITY: &str = include_str!("gravity.toml");
 
 /// The schema next to the case, for editors.
@@ -38,9 +39,21 @@ pub struct Arguments {
     /// A material of the library, as listed by fem-run materials
     #[arg(long, value_name = "MATERIAL", default_value = "soda-lime-glass")]
     material: String,
-    /// The partner of the sphere
+    /// Diameter of the ball
+    #[arg(long, value_name = "LENGTH", value_parser = quantity(Kind::Length), default_value = "10 mm")]
+    diameter: String,
+    /// Speed of the ball toward its partner
+    #[arg(long, value_name = "SPEED", value_parser = quantity(Kind::Speed), default_value = "1 m/s")]
+    speed: String,
+    /// Height from which the ball falls, in place of a speed: writes gravity and start.gap
+    #[arg(long, value_name = "LENGTH", value_parser = quantity(Kind::Length), conflicts_with = "speed")]
+    drop_height: Option<String>,
+    /// The partner of the ball
     #[arg(long, value_enum, default_value_t = Partner::Sphere)]
     partner: Partner,
+    /// The partner's material of the library [default: that of the ball]
+    #[arg(long, value_name = "MATERIAL")]
+    partner_material: Option<String>,
     /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
@@ -50,19 +63,27 @@ pub struct Arguments {
 enum Partner {
     /// The target is another sphere
     Sphere,
-    /// A rigid plane
+    /// The target is a rigid plane
     Wall,
-    /// A half-space of the same material
+    /// The target is a half-space
     HalfSpace,
-    /// A plate of the same material
+    /// The target is a plate
     Plate,
+}
+
+/// Returns a parser of quantities, which gives them as values of a case: bare numbers, or strings with their unit.
+fn quantity(kind: Kind) -> impl Fn(&str) -> Result<String, NotMeasured> + Clone {
+    move |text| {
+        parse_measured(kind, text)?;
+        Ok(if text.parse::<f64>().is_ok() { text.to_string() } else { format!("\"{text}\"") })
+    }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.name.with_extension_toml();
-    let text = text_of(&path, &arguments.material, arguments.partner)?;
+    let text = text_of(&path, arguments)?;
     // The written text is checked to be a valid case.
-    Case::parse(&path.display().to_string(), &text, Path::new("."), &[])?;
+    Case::parse(&path.display().to_string(), &text, Path::new("."), &[])?.check_units(false)?;
     let schema = path.with_file_name(SCHEMA_FILE);
     let place = "name a file in a folder that exists and that you may write to";
     write_new(&path, text.as_bytes()).map_err(|error| match error.kind() {
@@ -111,35 +132,71 @@ impl WithToml for PathBuf {
     }
 }
 
-fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Failure> {
-    let material = material.strip_prefix("lib:").unwrap_or(material);
-    let table = materials::one(material)?;
+/// Returns the name of a material in the library, and its table of a case with comments.
+fn of_library(name: &str) -> Result<(&str, String), Failure> {
+    let name = name.strip_prefix("lib:").unwrap_or(name);
+    let table = materials::one(name)?;
+    Ok((library::find(name).map_or(name, |(known, _)| known), table))
+}
+
+fn text_of(path: &Path, arguments: &Arguments) -> Result<String, Failure> {
+    let partner = arguments.partner;
+    let (material, mut table) = of_library(&arguments.material)?;
     let flow =
         if table.contains("yield_strength") { "\n".to_string() + FLOW } else { String::new() };
     let relaxation = match table.contains("relaxation") || table.contains(".flow]") {
         true => String::new(),
         false => "\n".to_string() + RELAXATION,
     };
+    let mut of_partner = material;
+    if let Some(other) = &arguments.partner_material {
+        if partner == Partner::Wall {
+            return Err(Failure::bad_input("a wall is rigid and has no material").with_help(
+                "add --partner half-space, plate or sphere, or leave --partner-material out",
+            ));
+        }
+        let (other, own) = of_library(other)?;
+        if other != material {
+            table += &format!("\n{own}");
+        }
+        of_partner = other;
+    }
     let below = match partner {
         Partner::Sphere => {
-            "name = \"lower\"\nsphere = { diameter = \"20 mm\" }\nmaterial = \"{material}\""
+            "name = \"lower\"\nsphere = { diameter = \"20 mm\" }\nmaterial = \"{of_partner}\""
         }
         Partner::Wall => {
             "name = \"floor\"\nwall = {}                              # rigid, no material"
         }
-        Partner::HalfSpace => "name = \"floor\"\nhalf_space = {}\nmaterial = \"{material}\"",
+        Partner::HalfSpace => "name = \"floor\"\nhalf_space = {}\nmaterial = \"{of_partner}\"",
         Partner::Plate => {
             "name = \"plate\"\nplate = { thickness = \"5 mm\" }         # also diameter = \"20 cm\", support = \"bonded\"\n\
-             material = \"{material}\""
+             material = \"{of_partner}\""
         }
     };
-    let gravity = if partner == Partner::Sphere { "" } else { GRAVITY };
+    let speed = format!("approach_speed = {:<21} # toward the other body\n", arguments.speed);
+    let (motion, gravity) = match (&arguments.drop_height, partner) {
+        (None, Partner::Sphere) => (speed, String::new()),
+        (None, _) => (speed, GRAVITY.to_string()),
+        (Some(_), Partner::Sphere) => {
+            return Err(Failure::bad_input("a ball that is dropped needs a support")
+                .with_help("add --partner wall, half-space or plate"));
+        }
+        (Some(height), _) => {
+            let start = format!("[start]\ngap = {height:<32} # the height of the fall\n\n");
+            let gravity = GRAVITY.replace("#[gravity]", "[gravity]");
+            (String::new(), start + &gravity.replace("#acceleration", "acceleration"))
+        }
+    };
     let words = [
         ("{below}", below),
         ("{table}", table.trim_end()),
         ("{flow}", &flow),
         ("{relaxation}", &relaxation),
-        ("{gravity}", gravity),
+        ("{gravity}", &gravity),
+        ("{diameter}", &arguments.diameter),
+        ("{motion}", &motion),
+        ("{of_partner}", of_partner),
         ("{material}", material),
         ("{file}", &one_line(&path.file_name().unwrap_or_default().to_string_lossy())),
         ("{title}", &one_line(&stem_of(path)).replace(['"', '\\'], "'")),

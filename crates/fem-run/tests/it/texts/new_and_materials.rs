@@ -85,6 +85,43 @@ fn new_case_is_valid_with_all_commented_keys_enabled() {
     assert_eq!(printed.as_bytes(), place.read("fem-run.schema.json"));
 }
 
+/// The options of `new` are in the file, which is checked as a case.
+#[test]
+fn new_case_has_what_the_options_say() {
+    let place = Place::new();
+    place.succeed(
+        "new drop --material Plexiglas --diameter '9.5 ± 0.1 mm' --drop-height '50 cm' --partner plate \
+         --partner-material lib:Delrin",
+    );
+    let text = place.text("drop.toml");
+    for line in [
+        "sphere = { diameter = \"9.5 ± 0.1 mm\" }\nmaterial = \"pmma\"\n\n[start]\ngap = \"50 cm\"",
+        "\n[gravity]",
+        "\nacceleration = \"9.81 m/s^2\"\n#[stop]",
+        "material = \"pom\"\n",
+        "\n[material.pom]\n",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    assert!(!text.contains("approach_speed"), "{text}");
+    place.succeed("check drop.toml");
+    place.succeed("new fast --speed 3 --partner-material glass");
+    let text = place.text("fast.toml");
+    assert!(text.contains("\napproach_speed = 3 ") && text.contains("[material.glass]"), "{text}");
+    for (options, expected) in [
+        ("--drop-height '1 m'", "needs a support|--partner wall"),
+        ("--partner wall --partner-material pom", "a wall is rigid"),
+        ("--partner wall --drop-height '1 m' --speed '1 m/s'", "cannot be used with"),
+        ("--diameter '0 mm'", "diameter must be greater than 0"),
+        ("--diameter '1 kg'", "1 kg"),
+        ("--diameter 9.5", "9.5 mm"),
+        ("--partner-material unobtainium", "the library has no material"),
+    ] {
+        place.fails(2, &format!("new none {options}")).tells(expected);
+    }
+    assert!(!place.list(".").contains(&"none.toml".to_string()));
+}
+
 #[test]
 fn new_case_overwrites_no_file() {
     let place = Place::new();
