@@ -16,6 +16,9 @@ use crate::quantity_axis::{QuantityAxis, chart_axes};
 /// Speeds of the overlap curves over the given speed.
 const SPEED_RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
+/// Most laws of a ranking that a figure or a short text shows, the best ones.
+pub const MAX_RANKED: usize = 3;
+
 /// Returns a share of the evidence in percent.
 pub fn evidence(weight: f64) -> String {
     format!("{:.1} %", 100.0 * weight)
@@ -32,7 +35,7 @@ fn title(family: LawFamily) -> String {
 }
 
 /// Returns `fit.svg`: restitution over speed for the fitted law, for those that it is compared with and for
-/// the data, and the rms error over the profiled parameter. Laws of a ranking are labelled with their
+/// the data, and the rms error over the profiled parameter. The best laws of a ranking are labelled with their
 /// evidence.
 pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let data = fitted.problem.points;
@@ -65,10 +68,13 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     }
     let mut chart = chart
         .with(Curve::line(label(0, model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
+    let n_ranked = ranking.map_or(0, |ranking| ranking.laws.len());
+    let ranks = (1..=fitted.compared.len()).zip(&fitted.compared);
+    let drawn = ranks.filter(|(rank, _)| !(MAX_RANKED..n_ranked).contains(rank));
     // The fitted law and the data have the first two colours.
-    for (k, (model, fit)) in fitted.compared.iter().enumerate() {
-        let curve = Curve::dashed(label(k + 1, model, fit), curve(model, fit));
-        chart = chart.with(curve.like_curve(k + 2));
+    for (rank, (model, fit)) in drawn {
+        let curve = Curve::dashed(label(rank, model, fit), curve(model, fit));
+        chart = chart.with(curve.like_curve(rank + 1));
     }
     let points = data.iter().map(|point| (x.scaled(point.speed), point.restitution)).collect();
     let errors = data.iter().map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();

@@ -7,13 +7,15 @@ use super::levels::Levels;
 use super::region::{Cells, Region};
 use super::section::Section;
 use super::window::{PANEL_WIDTH, Window};
-use crate::style::{FONT, GRID, INK, number, words};
+use crate::style::{FONT, GRID, INK, LETTER, number, words};
 
-const LEFT: f64 = 62.0;
+const LEFT: f64 = 68.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 50.0;
 const GAP: f64 = 18.0;
+/// Smallest width of the legend; its heading may need more.
 const LEGEND_WIDTH: f64 = 112.0;
+const HEADING_SIZE: f64 = 14.0;
 const SWATCH_WIDTH: f64 = 22.0;
 /// Approximate number of intervals between ticks.
 const N_TICKS: usize = 7;
@@ -52,7 +54,8 @@ impl Contour {
         let columns = self.panels.len().clamp(1, 2);
         let rows = self.panels.len().div_ceil(columns);
         let cell = [LEFT + PANEL_WIDTH + GAP, TOP + self.window.height() + BOTTOM];
-        let width = columns as f64 * cell[0] + LEGEND_WIDTH;
+        let heading = LETTER * HEADING_SIZE * (self.quantity.chars().count() + 2) as f64;
+        let width = columns as f64 * cell[0] + LEGEND_WIDTH.max(heading);
         let height = rows as f64 * cell[1];
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
@@ -133,7 +136,7 @@ impl Contour {
         let _ = writeln!(
             svg,
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\
-             <text transform=\"translate(-44 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+             <text transform=\"translate(-53 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
             0.5 * PANEL_WIDTH,
             height + 38.0,
             words(&self.x_label),
@@ -149,7 +152,7 @@ impl Contour {
         let size = (height / n_bands as f64).min(34.0);
         let _ = writeln!(
             svg,
-            "<text x=\"0\" y=\"-10\" font-size=\"14\">{}</text>",
+            "<text x=\"0\" y=\"-10\" font-size=\"{HEADING_SIZE}\">{}</text>",
             words(&self.quantity)
         );
         for band in 0..n_bands {

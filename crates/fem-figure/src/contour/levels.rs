@@ -9,7 +9,8 @@ pub struct Levels {
 
 impl Levels {
     /// Returns multiples of 1, 2 or 5 times a power of ten that cover a range, with about `n` bands on the
-    /// larger side of zero. Values within one step of zero share a neutral band.
+    /// larger side of zero. Values within one step of zero share a neutral band; it begins at zero where no value is
+    /// negative.
     pub fn about_zero(smallest: f64, largest: f64, n: usize) -> Self {
         let side = |value: f64| if value.is_finite() { value.max(0.0) } else { 0.0 };
         let (below, above) = (side(-smallest), side(largest));
@@ -19,7 +20,10 @@ impl Levels {
         let count = |value: f64| ((value / step - 1e-9).ceil() as i64).max(1);
         let (below, above) = (count(below), count(above));
         let multiples = (-below..=above).filter(|k| *k != 0);
-        let edges = multiples.map(|k| k as f64 * step).collect();
+        let mut edges: Vec<f64> = multiples.map(|k| k as f64 * step).collect();
+        if smallest == 0.0 && largest > 0.0 {
+            edges[0] = 0.0;
+        }
         Self { step, edges }
     }
 
@@ -44,7 +48,7 @@ impl Levels {
 
     /// Returns the index of the band around zero.
     pub(crate) fn neutral(&self) -> usize {
-        self.edges.partition_point(|edge| *edge < 0.0) - 1
+        self.edges.partition_point(|edge| *edge <= 0.0) - 1
     }
 }
 
@@ -74,6 +78,8 @@ mod tests {
         assert_eq!((levels.edges()[0], levels.edges()[12]), (-11.0 * 0.1, 0.2));
         assert_eq!(levels.neutral(), 10);
         assert_eq!(Levels::about_zero(-0.3, 4.4, 10).step(), 0.5);
+        let levels = Levels::about_zero(0.0, 2.0, 4);
+        assert_eq!((levels.edges(), levels.neutral()), (&[0.0, 0.5, 1.0, 1.5, 2.0][..], 0));
         assert_eq!(Levels::about_zero(-3e9, 3e9, 3).edges(), [-3e9, -2e9, -1e9, 1e9, 2e9, 3e9]);
     }
 

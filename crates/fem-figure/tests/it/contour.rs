@@ -124,6 +124,9 @@ fn the_picture_has_bands_numbers_and_outlines() {
     for expected in ["stress &lt;GPa&gt;", "\u{2212}0.8", "r [mm]", "(a)"] {
         assert!(svg.contains(expected), "{expected}");
     }
+    // A long heading widens the picture.
+    let wide = Contour { quantity: "plastic strain [%]".into(), ..contour };
+    assert!(svg.contains("width=\"598\"") && wide.svg().contains("width=\"643\""));
 }
 
 /// A region that touches the axis forms one polygon with its mirror image, a hole stays one, and a region

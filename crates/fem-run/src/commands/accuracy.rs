@@ -127,25 +127,27 @@ fn measure(
     let progress = ItemProgress::new(interrupt.clone(), "variants", variants.all.len(), quiet);
     let end = Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX / 4);
     let deadline = Deadline { end: Instant::now() + end, interrupt };
-    let mut measured = vec![None; variants.all.len()];
+    let (mut measured, mut n_skipped) = (vec![None; variants.all.len()], 0);
     let mut forecast = Forecast { update: UPDATE, condensed: 0.0 };
     for index in variants.cheapest_first() {
         let variant = &variants.all[index];
         let left = deadline.end.saturating_duration_since(Instant::now()).as_secs_f64();
         let fits = left > 0.0 && !interrupt.is_requested() && forecast.seconds(variant) <= left;
-        let ran = fits.then(|| run(variant, variants.contact_radius, deadline)).transpose()?;
-        let took = ran
-            .as_ref()
-            .map_or("skipped: budget spent".to_string(), |(_, seconds)| show(*seconds, "s"));
-        let (series, describe) = (variant.series.name(), variant.describe());
-        progress.finish_item(&format!("{took:>12}  {series}  {describe}"));
-        if let Some(ran) = ran {
-            forecast.learn(variant, &ran);
-            measured[index] =
-                Some(ran).filter(|(result, _)| result.is_complete || Instant::now() < deadline.end);
+        if !fits {
+            n_skipped += 1;
+            continue;
         }
+        let ran = run(variant, variants.contact_radius, deadline)?;
+        let (took, series) = (show(ran.1, "s"), variant.series.name());
+        progress.finish_item(&format!("{took:>12}  {series}  {}", variant.describe()));
+        forecast.learn(variant, &ran);
+        measured[index] =
+            Some(ran).filter(|(result, _)| result.is_complete || Instant::now() < deadline.end);
     }
     progress.finish();
+    if n_skipped > 0 && !quiet {
+        let _ = writeln!(stderr(), "{n_skipped} variants skipped: the budget is spent");
+    }
     Ok(measured)
 }
 

@@ -15,7 +15,9 @@ use crate::{
     arguments::case::{CaseArguments, ToleranceArguments},
     forecast::{Forecast, closed_form_time, estimated, estimated_count, estimated_time},
     progress::stopwatch::peak_memory_with,
-    text::{Failure, headed, mesh_table, pairs, run_report, standard_output, table},
+    text::{
+        Failure, headed, mesh_table, pairs, run_report, run_report::Detail, standard_output, table,
+    },
 };
 
 /// Time for the reference runs that decide whether the mesh is fine enough.
@@ -34,6 +36,9 @@ pub struct Arguments {
     /// Print the case with all defaults filled in, as TOML
     #[arg(long)]
     resolved: bool,
+    /// Print everything: meshes, all models, and each effect with its reason and the error of leaving it out
+    #[arg(long, short, conflicts_with_all = ["quiet", "resolved"])]
+    verbose: bool,
     /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
@@ -41,7 +46,9 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_within(&arguments.within)?;
-    let checked = Checked::of(case, &arguments.input.name())?;
+    // A resolved case describes the expected run in its comments.
+    let detail = if arguments.verbose || arguments.resolved { Detail::All } else { Detail::Short };
+    let checked = Checked::of(case, &arguments.input.name(), detail)?;
     if arguments.quiet {
         standard_output::warn(checked.simulation.warnings_before());
     }
@@ -54,7 +61,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Returns the resolved case as TOML, with comments on the expected run.
 pub fn text(case: Case, name: &str) -> Result<String, Failure> {
-    Checked::of(case, name)?.resolved()
+    Checked::of(case, name, Detail::All)?.resolved()
 }
 
 struct Checked {
@@ -64,7 +71,7 @@ struct Checked {
 }
 
 impl Checked {
-    fn of(case: Case, name: &str) -> Result<Self, Failure> {
+    fn of(case: Case, name: &str, detail: Detail) -> Result<Self, Failure> {
         let begin = Instant::now();
         let simulation = Simulation::new(case)?;
         let making = begin.elapsed().as_secs_f64();
@@ -81,7 +88,7 @@ impl Checked {
             some => (run_report::warnings(&some) + "\n", ""),
         };
         let heading = format!("{name} is valid{large}{none}. Expected of a run:");
-        let expected = expect(&simulation, &estimator, setup, &forecast);
+        let expected = expect(&simulation, &estimator, setup, &forecast, detail);
         let heading = standard_output::one_line(&heading);
         let expectation = format!("{warnings}{heading}\n\n{expected}");
         Ok(Self { simulation, expectation })
@@ -101,10 +108,11 @@ fn expect(
     estimator: &ErrorEstimator,
     spent: f64,
     forecast: &Forecast,
+    detail: Detail,
 ) -> String {
     let setup = simulation.setup();
     let hertz = &setup.estimate.hertz;
-    let closed_form = pairs([
+    let hertz = pairs([
         ("contact time", show(hertz.contact_time(), "s")),
         ("peak force", show(hertz.peak_force(), "N")),
         ("largest approach", show(hertz.max_approach(), "m")),
@@ -114,19 +122,34 @@ fn expect(
     let costs = costs(simulation, estimator, Some(forecast), time(simulation, spent, forecast));
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
-            let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
-            let chosen = by_tolerance(simulation);
-            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
+            let scene = simulation.case().scene();
+            let meshes = match detail {
+                Detail::Short => String::new(),
+                Detail::All => format!(
+                    "Mesh\n{}{}\n",
+                    mesh_table(scene, simulation.model().meshes()),
+                    by_tolerance(simulation)
+                ),
+            };
+            format!("{meshes}Cost{}\n{costs}", of_contacts(simulation))
         }
         Cost::ClosedForm { law } => {
             one_degree_of_freedom(&setup.description, law.as_ref(), closed_form_time(simulation))
         }
     };
+    let hertz = format!("\nHertz, instantaneous moduli\n{hertz}");
+    let decisions = &setup.decisions.all;
+    if detail == Detail::Short {
+        let (case, considered) = (simulation.resolved(), simulation.considered());
+        let effects = run_report::effects_in_short(Vec::new(), decisions.iter(), case, considered);
+        return format!("{model}{hertz}\n{effects}");
+    }
     format!(
-        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the error of leaving each one out (?: not known)\n{}",
+        "{}{model}{}{hertz}\nEffects\n{}\nErrors of leaving effects out (?: not known)\n{}",
         models(simulation),
         unforced(simulation),
-        effects(simulation),
+        run_report::effects(decisions.iter()),
+        neglect_errors(simulation),
     )
 }
 
@@ -140,16 +163,15 @@ fn models(simulation: &Simulation) -> String {
     }
 }
 
-/// Returns which effects are on, why, and the changes of the results without them.
-fn effects(simulation: &Simulation) -> String {
+/// Returns the changes of the results without each effect.
+fn neglect_errors(simulation: &Simulation) -> String {
     let setup = simulation.setup();
     let rows = setup.decisions.all.iter().map(|decision| {
         let neglect_error = simulation.neglect_error(decision, &setup.estimate).unwrap_or_default();
         let [restitution, time, force] = run_report::changes(&neglect_error);
-        let switch = run_report::on_or_off(decision).to_string();
-        [switch, decision.name.to_string(), restitution, time, force, decision.reason.clone()]
+        [decision.name.to_string(), restitution, time, force]
     });
-    headed("||>restitution|>contact time|>peak force|", rows)
+    headed("|>restitution|>contact time|>peak force", rows)
 }
 
 /// Returns the cost with the default effects; empty if the case does not override them.

@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use clap::ValueEnum;
 use fem_case::readable_name;
 use fem_report::report::{
     Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_dent,
@@ -80,19 +81,33 @@ pub struct PlotArguments {
     folders: Vec<PathBuf>,
     /// The figure to draw
     #[arg(long, value_name = "FIGURE")]
-    what: Figure,
+    what: Option<Figure>,
     /// The file, - for standard output [default: the names of the folders and the figure, A-force.svg]
     ///
     /// An existing file is replaced only if it is such a picture.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = vector_file)]
     out: Option<PathBuf>,
     /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }
 
+/// Rejects files of other formats, with the command that converts the picture.
+fn vector_file(name: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(name);
+    let format = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if !["png", "pdf", "eps", "jpg", "jpeg"].contains(&format.as_str()) {
+        return Ok(path);
+    }
+    let svg = path.with_extension("svg");
+    Err(format!(
+        "figures are SVG; write --out {0} and convert it: inkscape {0} -o {name}",
+        svg.display()
+    ))
+}
+
 /// The figures of a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Figure {
     /// Axial stress around the contact at the snapshots
     Contours,
@@ -117,7 +132,13 @@ pub enum Figure {
 }
 
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
-    let (records, figure) = (StoredResult::read_all(&arguments.folders)?, arguments.what);
+    let Some(figure) = arguments.what else {
+        let figures = Figure::value_variants().iter().filter_map(Figure::to_possible_value);
+        let names: Vec<String> = figures.map(|figure| figure.get_name().to_string()).collect();
+        return Err(Failure::bad_input("plot needs --what FIGURE")
+            .with_help(format!("the figures are {}", names.join(", "))));
+    };
+    let records = StoredResult::read_all(&arguments.folders)?;
     let of_one = |name: &str| match records.as_slice() {
         [record] => Ok(record),
         _ => Err(Failure::bad_input(format!("--what {name}: this figure shows a single result"))
@@ -146,8 +167,9 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
             .with_help("fields and profiles need [output] snapshots and a model with elements, bounces need \
                         gravity, and a dent a body that flows"));
     };
-    let name = clap::ValueEnum::to_possible_value(&figure);
-    let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));
+    let name = figure
+        .to_possible_value()
+        .map_or(String::new(), |value| format!("{}.svg", value.get_name()));
     let path = arguments.out.clone().unwrap_or_else(|| default_name(&records, &name));
     let svg = svg.replacen('>', &format!(">\n{}", PICTURE.marker), 1);
     match PICTURE.write(&path, &svg)? {

@@ -29,7 +29,7 @@ enum Display {
 }
 
 impl Display {
-    /// Chooses the display; a bar has this length and indicatif template.
+    /// Chooses the display; a bar has this length and indicatif template. Its message, `wide_msg`, is cut to the terminal's width.
     fn choose(quiet: bool, length: u64, template: &str) -> Self {
         if quiet {
             return Self::Nothing;
@@ -75,7 +75,8 @@ pub struct RunProgress {
 
 impl RunProgress {
     pub fn new(interrupt: Interrupt, quiet: bool) -> Self {
-        let display = Display::choose(quiet, TICKS, "{bar:32} {percent:>3} %  {msg}  {eta} left");
+        let display =
+            Display::choose(quiet, TICKS, "{bar:16} {percent:>3} %  {wide_msg}  {eta} left");
         let (next_share, last_line) = (LINE_SHARE, Instant::now());
         Self { interrupt, display, next_share, last_line, first: None }
     }
@@ -141,7 +142,7 @@ impl ItemProgress {
     /// Creates the progress of `n_items` items that the plural `what` names.
     pub fn new(interrupt: Interrupt, what: &'static str, n_items: usize, quiet: bool) -> Self {
         let length = n_items as u64 * TICKS;
-        let template = "{bar:32} {percent:>3} %  {msg}  {elapsed}, {eta} left";
+        let template = "{bar:16} {percent:>3} %  {wide_msg}  {elapsed}, {eta} left";
         let display = Display::choose(quiet || n_items == 0, length, template);
         if let Some(bar) = display.bar() {
             bar.set_message(format!("0 of {n_items} {what}"));

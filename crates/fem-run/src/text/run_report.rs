@@ -8,7 +8,7 @@ use fem::effects::{EffectDecision, NeglectError};
 use fem::results::{BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
 use fem_case::engineering::{Unit, number, show};
-use fem_case::schema::ToleranceValue;
+use fem_case::schema::{CaseFile, ToleranceValue};
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
 use fem_report::answer::{
@@ -88,13 +88,25 @@ fn short(summary: &Summary) -> String {
     for (name, text) in flow(summary, summary.dent.iter().flatten().max_by(deepest).into_iter()) {
         row(name, text);
     }
-    let chosen = summary.models_considered.iter().flatten().find(|candidate| candidate.chosen);
+    let considered = summary.models_considered.as_deref().unwrap_or_default();
+    let decisions = summary.effects.iter().map(|effect| &effect.decision);
+    format!("\n{deficit}{}", effects_in_short(rows, decisions, &summary.case, considered))
+}
+
+/// Returns these rows, the chosen model, the effects that are on, and how many are off.
+pub fn effects_in_short<'a>(
+    mut rows: Vec<[String; 2]>,
+    decisions: impl Iterator<Item = &'a EffectDecision> + Clone,
+    case: &CaseFile,
+    considered: &[ModelCandidate],
+) -> String {
+    let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
+    let chosen = considered.iter().find(|candidate| candidate.chosen);
     if let Some(ModelCandidate { model, reason, .. }) = chosen {
         row("model", format!("{model}, {reason}"));
     }
-    let decisions = || summary.effects.iter().map(|effect| &effect.decision);
     let on: Vec<&EffectDecision> =
-        decisions().filter(|it| it.active && !is_numerical(it.name)).collect();
+        decisions.clone().filter(|it| it.active && !is_numerical(it.name)).collect();
     if !on.is_empty() {
         let reasons: Vec<String> =
             on.iter().map(|it| format!("{} ({})", it.name, it.reason)).collect();
@@ -102,16 +114,16 @@ fn short(summary: &Summary) -> String {
         let reasons = reasons.join(", ");
         row("on", if reasons.len() > MAX_REASONS { names.join(", ") } else { reasons });
     }
-    let off: Vec<&EffectDecision> = decisions().filter(|it| !it.active).collect();
+    let off: Vec<&EffectDecision> = decisions.clone().filter(|it| !it.active).collect();
     let mattering: Vec<&str> = off.iter().filter(|it| it.matters).map(|it| it.name).collect();
     let above = match mattering.is_empty() {
-        true => format!(", none above {}", tolerance_words(summary)),
-        false => format!("; above {}: {}", tolerance_words(summary), mattering.join(", ")),
+        true => format!(", none above {}", tolerance_words(case)),
+        false => format!("; above {}: {}", tolerance_words(case), mattering.join(", ")),
     };
     let plural = if off.len() == 1 { "" } else { "s" };
     let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
-    format!("\n{deficit}{rows}{off}")
+    rows + &off
 }
 
 /// Returns dents of bodies that flowed, and where the energy went.
@@ -157,8 +169,8 @@ fn share_of_energy(summary: &Summary, part: Option<f64>) -> Option<f64> {
 }
 
 /// Returns the tolerance of the case as text: `the tolerance of 1 %`, or that it has several.
-fn tolerance_words(summary: &Summary) -> String {
-    let given = summary.case.accuracy.as_ref().and_then(|accuracy| accuracy.tolerance.as_ref());
+fn tolerance_words(case: &CaseFile) -> String {
+    let given = case.accuracy.as_ref().and_then(|accuracy| accuracy.tolerance.as_ref());
     let share = match given {
         Some(ToleranceValue::Table(_)) => return "the tolerances of the case".to_string(),
         Some(ToleranceValue::Share(share)) => share.si().ok(),

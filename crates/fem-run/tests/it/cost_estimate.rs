@@ -90,11 +90,13 @@ fn check_states_the_refined_mesh_or_the_refinement_bound() {
         assert_eq!(place.json("again/summary.json")[key], place.json("out/summary.json")[key]);
     }
     let condensed = place.succeed(["check", "case.toml", "--set", "model.condensed={}"]).stdout;
+    assert!(condensed.lines().count() <= 24 && !condensed.contains("aspect ratio"), "{condensed}");
     let time = condensed.lines().find(|line| line.starts_with("time  ")).unwrap();
     assert!(time.contains("about ") && time.ends_with(" here"), "{time}");
     // Small mass scaling is not rounded to zero.
     let tight = ["accuracy.tolerance=1e-5", "mesh.contact_element_size='50 um'"];
-    let told = place.succeed(["check", "case.toml", "--set", tight[0], "--set", tight[1]]).stdout;
+    let told =
+        place.succeed(["check", "case.toml", "-v", "--set", tight[0], "--set", tight[1]]).stdout;
     let row = told.lines().find(|line| line.starts_with("time.mass_scaling")).unwrap();
     assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
     // The case gives its element size.

@@ -19,6 +19,7 @@ use crate::arguments::law::{
 use crate::jobs::value_of;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
+use crate::text::run_report::Detail;
 use crate::text::standard_output;
 
 /// Fit parameters of a contact law to restitutions over speed
@@ -68,6 +69,9 @@ pub struct Arguments {
     /// Speed for which histories are drawn [default: the middle of the data]
     #[arg(long, value_name = "SPEED", value_parser = parse_speed)]
     at: Option<f64>,
+    /// Print everything: all laws of a ranking with their values
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -162,10 +166,11 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories);
     standard_output::warn(fitted.warnings());
+    let detail = if arguments.verbose { Detail::All } else { Detail::Short };
     output.publish(&fitted.numbers(&arguments.input.name()), |kept| {
         answer(fitted, ranking.as_ref())
-            + &ranking.as_ref().map_or(String::new(), ranking_text)
-            + &fit_text(fitted, law)
+            + &ranking.as_ref().map_or(String::new(), |all| ranking_text(all, detail))
+            + &fit_text(fitted, law, ranking.as_ref().filter(|_| detail == Detail::Short))
             + &next_steps(fitted, &arguments.input.name(), kept.folder())
     })
 }

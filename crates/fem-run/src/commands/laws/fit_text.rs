@@ -11,12 +11,13 @@ use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::End;
 use fem_laws::{LawFamily, LawParameter};
 
-use fem_report::law_figures::evidence;
+use fem_report::law_figures::{MAX_RANKED, evidence};
 
+use crate::text::run_report::Detail;
 use crate::text::{headed, one_line, show_value, shown};
 
 /// Largest number of points that a text lists.
-const MOST_LISTED: usize = 12;
+const MOST_LISTED: usize = 6;
 
 /// Returns the first line of the text: the fitted parameters with their standard errors.
 pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
@@ -50,12 +51,13 @@ pub fn with_error(value: f64, error: Option<f64>, unit: &str) -> String {
     format!("{}{error} {unit}", shown(value)).trim_end().to_string()
 }
 
-pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
+/// Returns parameters and errors of the fitted law, and a line for each compared law that `ranked` does not list.
+pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw, ranked: Option<&LawRanking>) -> String {
     let LawFit { problem, fit, .. } = fitted;
     let (model, points) = (problem.model, problem.points);
     let (slowest, fastest) = fitted.data.speeds();
     let mut text = format!(
-        "{}, contact ends at {}; {} of {}, {} to {}\n\n",
+        "{}, contact ends at {}\n{} of {}, {} to {}\n",
         model.family().name(),
         End::from(model.end_rule()).word().replace('_', " "),
         if points.len() == 1 { "1 point".to_string() } else { format!("{} points", points.len()) },
@@ -84,7 +86,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     if model.family() == LawFamily::Ting && others.count() > 0 {
         text += "decay_rate is the largest one; the others keep their ratio to it\n";
     }
-    text + &compared(fitted, unit)
+    text + &compared(fitted, unit, ranked.map_or(0, |ranking| ranking.laws.len().saturating_sub(1)))
 }
 
 /// Returns the table of the law's parameters: the fitted ones with their errors, and the held ones.
@@ -148,8 +150,8 @@ fn errors_by_inputs(fitted: &LawFit<'_>) -> String {
     fitted.fit.estimates.iter().enumerate().filter(|_| has_parts).map(row).collect()
 }
 
-/// Returns a line for each law that is compared.
-fn compared(fitted: &LawFit<'_>, unit: &str) -> String {
+/// Returns a line for each law that is compared, after the first `n_skipped`.
+fn compared(fitted: &LawFit<'_>, unit: &str, n_skipped: usize) -> String {
     let parameter = |fit: &Fit, parameter: &LawParameter, value: f64| {
         let estimate = fit.estimates.iter().find(|own| own.key == parameter.key);
         let is_at_bound = estimate.is_some_and(|own| own.is_at_bound);
@@ -162,7 +164,7 @@ fn compared(fitted: &LawFit<'_>, unit: &str) -> String {
         let name = model.family().name();
         format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "))
     };
-    fitted.compared.iter().map(line).collect()
+    fitted.compared.iter().skip(n_skipped).map(line).collect()
 }
 
 /// Returns an input with its relative uncertainty, `body.1.plate.thickness ± 2 %`.
@@ -201,13 +203,11 @@ pub fn weighted_down(data: &Restitutions, robustness: &Robustness, weights: &[f6
 /// Returns the law as a case has it, and the command that writes it for other codes.
 pub fn next_steps(fitted: &LawFit<'_>, case: &str, kept: Option<&Path>) -> String {
     let model = fitted.model_toml().map_or(String::new(), |toml| {
-        format!(
-            "\nThe law in a case of the same bodies; its e has all losses of the data:\n\n{toml}"
-        )
+        format!("\nThe law in a case of the same bodies; its e has all losses of the data:\n{toml}")
     });
     let case = one_line(case);
     let export = kept.map_or(String::new(), |folder| {
-        format!("\nInput for DEM codes: fem-run export {case} --fit {}\n", shown(folder))
+        format!("Input for DEM codes: fem-run export {case} --fit {}\n", shown(folder))
     });
     model + &export
 }
@@ -222,9 +222,13 @@ fn profile_words(profile: Option<&Profile>, shown: impl Fn(f64) -> String) -> St
     }
 }
 
-/// Returns the text on stdout, the best law first.
-pub fn ranking_text(ranking: &LawRanking) -> String {
-    let rows = ranking.laws.iter().map(|law| {
+/// Returns the text on stdout, the best law first; a short one has the best laws only.
+pub fn ranking_text(ranking: &LawRanking, detail: Detail) -> String {
+    let n_shown = match detail {
+        Detail::Short => MAX_RANKED.min(ranking.laws.len()),
+        Detail::All => ranking.laws.len(),
+    };
+    let rows = ranking.laws[..n_shown].iter().map(|law| {
         let shown = |value: Option<f64>, digits: usize| {
             value.map_or("too few data".to_string(), |value| format!("{value:.digits$}"))
         };
@@ -237,6 +241,9 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
         ]
     });
     let mut text = headed("law|free|>rms error|>ΔAICc|>evidence", rows);
+    if n_shown < ranking.laws.len() {
+        text += &format!("and {} more; -v prints them\n", ranking.laws.len() - n_shown);
+    }
     text += match ranking.laws.iter().any(|law| law.weight.is_some()) {
         true => "evidence: share of each law among these; all of them may be wrong\n",
         false => {
@@ -244,6 +251,9 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
              more speeds, or give uncertainties\n"
         }
     };
+    if detail == Detail::Short {
+        return text + "\n";
+    }
     let of: BTreeSet<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();
     for of in of {
         let twins = ranking.twins.iter().filter(|twin| twin.1 == of).map(|twin| twin.0.as_str());

@@ -82,7 +82,7 @@ fn a_yield_strength_comes_back_from_restitutions() {
     place.write("e.csv", &format!("speed_m_s,restitution\n{rows}"));
     place.write("case.toml", &BALLS.replace("yield_strength = \"1 GPa\"", ""));
 
-    let ran = place.succeed("fit case.toml --data e.csv --law all");
+    let ran = place.succeed("fit case.toml --data e.csv --law all -v");
     ran.prints("yield_strength = 1|mean_pressure fits best of|the same curve as linear: tsuji");
     assert_eq!(ran.stdout.matches("the same curve as linear").count(), 1, "{}", ran.stdout);
     // Parameters that are not fitted are those of the case: like balls.

@@ -129,6 +129,9 @@ fn a_result_without_fields_has_a_page_with_its_title_escaped_and_no_picture() {
     assert!(!page.contains("<script>alert"));
     assert_eq!(page.matches("<script>").count(), 1);
     place.fails(2, "plot runs/case --what contours").tells("nothing to draw");
+    place.fails(2, "plot runs/case").tells("contours, dent, force, approach");
+    let converted = "write --out a.svg and convert it: inkscape a.svg -o a.png";
+    place.fails(2, "plot runs/case --what force --out a.png").tells(converted);
     place.succeed((TING, "--set output.report=false --out spared"));
     assert_eq!(place.list("spared"), ["history.csv", "summary.json"]);
 }
