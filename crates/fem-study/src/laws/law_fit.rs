@@ -140,7 +140,11 @@ impl<'a> LawFit<'a> {
             let others = match problem.free.iter().all(|free| free.index == strength) {
                 true => Some(vec![0.0]),
                 false => shifted(1.0).zip(shifted(-1.0)).map(|(above, below)| {
-                    above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect()
+                    above
+                        .iter()
+                        .zip(below)
+                        .map(|(above, below)| 0.5 * above - 0.5 * below)
+                        .collect()
                 }),
             };
             let others = others.unwrap_or_else(|| vec![f64::NAN; keys.len()]);
