@@ -39,11 +39,14 @@ impl Case {
 /// `None` if there is none at either.
 pub fn central_change(changes: impl Fn(f64) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
     match [1.0, -1.0].map(changes) {
-        [Some(above), Some(below)] => {
-            Some(above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect())
-        }
+        [Some(above), Some(below)] => Some(half_difference(&above, &below)),
         [Some(above), None] => Some(above),
         [None, Some(below)] => Some(below.iter().map(|change| -change).collect()),
         [None, None] => None,
     }
+}
+
+/// Returns half of the difference of numbers at both sides.
+pub fn half_difference(above: &[f64], below: &[f64]) -> Vec<f64> {
+    above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect()
 }

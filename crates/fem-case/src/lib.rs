@@ -67,7 +67,7 @@ pub const CASE_SCHEMA: &str = include_str!("../schemas/case.json");
 pub const SWEEP_SCHEMA: &str = include_str!("../schemas/sweep.json");
 
 pub use case::{Case, read_data_file, text_at};
-pub use case_edit::central_change;
+pub use case_edit::{central_change, half_difference};
 pub use error::CaseError;
 pub use fem_material::engineering;
 pub use quantity::temperature::parse_temperature;

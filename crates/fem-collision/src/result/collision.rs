@@ -115,6 +115,19 @@ pub struct Bounce {
     pub peak_force: Option<f64>,
 }
 
+impl Bounce {
+    /// Returns the contact as a collision of its own, without history and fields; `None` for a speed that no approach has.
+    pub fn collision(&self) -> Option<Collision> {
+        let approach = Approach::new([0.0, -self.speed_before], 0.0).ok()?;
+        Some(Collision {
+            restitution: Some(self.restitution),
+            contact_time: self.contact_time,
+            peak_force: self.peak_force,
+            ..Collision::empty(approach, Ending::Parted)
+        })
+    }
+}
+
 /// The static contact of a ball at rest, after all relaxation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RestState {

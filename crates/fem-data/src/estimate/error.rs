@@ -112,7 +112,6 @@ pub enum FitError {
     NoRelaxation,
 }
 
-/// Formats a restitution with enough digits to distinguish it from 0 and 1.
 fn shown(value: f64, parameter: &LawParameter) -> String {
     match parameter.unit {
         unit @ ("Pa" | "s" | "m/s") => show(value, unit),
@@ -120,6 +119,7 @@ fn shown(value: f64, parameter: &LawParameter) -> String {
     }
 }
 
+/// Formats a restitution with enough digits to distinguish it from 0 and 1.
 fn near_one(restitution: f64) -> String {
     match restitution {
         e if e > 0.9999 => format!("1 - {:.1e}", 1.0 - e),

@@ -1,7 +1,7 @@
 //! The estimator of the discretisation error: safety factor × distance from the Richardson limit + noise floor.
 
 use fem_case::Spot;
-use fem_collision::{Approach, Bounce, Collision, Ending, QuantityOfInterest};
+use fem_collision::{Bounce, Collision, QuantityOfInterest};
 
 use super::calibration::{
     CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, PLATE, SAMPLED_PER_TOLERANCE,
@@ -90,7 +90,8 @@ impl ErrorEstimator {
         let stays = scene.gravity().is_some_and(|gravity| gravity.spot == Some(Spot::Same));
         let is_dented = stays && simulation.setup().estimate.flow.is_some();
         // On its dent a contact is elastic and wider than the first, so its error is smaller: 1e-4 in place of 6e-3 of steel on aluminium.
-        let Some(elements) = simulation.setup().elements.as_ref().filter(|_| !is_dented) else {
+        let needs_own = bounces.len() > 1 && !is_dented;
+        let Some(elements) = simulation.setup().elements.as_ref().filter(|_| needs_own) else {
             return vec![first.discretisation(restitution); bounces.len()];
         };
         let Some(size) = contact_element_size(simulation, collision) else {
@@ -100,15 +101,12 @@ impl ErrorEstimator {
         let sizes = element_sizes(&scene, &elements.plan, size, speeds);
         let floor = floor_of_run(simulation, collision)(restitution);
         let later = |(bounce, size): (&Bounce, Option<f64>)| {
-            let approach = Approach::new([0.0, -bounce.speed_before], 0.0).ok()?;
-            let radius = simulation.estimate(&approach)?.contact_radius;
+            let contact = bounce.collision()?;
+            let radius = simulation.estimate(&contact.approach)?.contact_radius;
             let contact = Collision {
-                restitution: Some(bounce.restitution),
-                contact_time: bounce.contact_time,
-                peak_force: bounce.peak_force,
                 max_contact_radius: Some(radius),
                 element_updates: collision.element_updates,
-                ..Collision::empty(approach, Ending::Parted)
+                ..contact
             };
             let parts = self.of_size(simulation, &contact, size?)[restitution as usize]?;
             Some(parts.sum().max(floor))

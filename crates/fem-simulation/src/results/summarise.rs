@@ -2,8 +2,8 @@
 
 use fem_case::{ModelChoice, Spot};
 use fem_collision::{
-    Account, Approach, BalanceSide, Bounce, Collision, Ending, EnergyLedger, PROGRAM,
-    QuantityOfInterest, RestState, Status, energy_key,
+    Account, BalanceSide, Bounce, Collision, EnergyLedger, PROGRAM, QuantityOfInterest, RestState,
+    Status, energy_key,
 };
 use fem_laws::ImpactQuantities;
 
@@ -275,15 +275,7 @@ fn bar_of(
     errors: &ErrorEstimate,
     discretisation: Option<f64>,
 ) -> Parts {
-    let Ok(approach) = Approach::new([0.0, -bounce.speed_before], 0.0) else {
-        return Parts::default();
-    };
-    let contact = Collision {
-        restitution: Some(bounce.restitution),
-        contact_time: bounce.contact_time,
-        peak_force: bounce.peak_force,
-        ..Collision::empty(approach, Ending::Parted)
-    };
+    let Some(contact) = bounce.collision() else { return Parts::default() };
     let values = quantities(&contact, &mut Numbers { not_finite: Vec::new() });
     let effects = effects(simulation, &contact, &errors.decisions);
     let quantity = QuantityOfInterest::Restitution;

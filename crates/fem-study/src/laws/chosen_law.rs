@@ -351,6 +351,11 @@ impl ChosenLaw {
     }
 }
 
+/// Returns the lower end of a range of strengths, SI, that has no upper end; `None` if it has one or none is known.
+pub(super) fn open_from((low, high): (f64, f64)) -> Option<f64> {
+    (high == f64::INFINITY && low > 0.0).then_some(low)
+}
+
 /// Returns where a condition begins to hold on the way from one value to another, in the logarithm; the other value if it never does.
 fn edge(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
     let at = |share: f64| from * (to / from).powf(share);

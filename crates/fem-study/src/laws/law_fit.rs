@@ -1,14 +1,14 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
-use fem_case::Case;
 use fem_case::engineering::number;
 use fem_case::schema::End;
+use fem_case::{Case, half_difference};
 use fem_data::estimate::{
     Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness, SPEED,
 };
 use fem_laws::{LawFamily, ParameterRole};
 
-use super::chosen_law::{ChosenLaw, strength_at_reference_rate, strength_words};
+use super::chosen_law::{ChosenLaw, open_from, strength_at_reference_rate, strength_words};
 use super::law_fault::LawFault;
 use super::law_ranking::LawRanking;
 use fem_data::estimate::loss_parameter;
@@ -115,39 +115,23 @@ impl<'a> LawFit<'a> {
             refit(&law.in_case(case).ok()?, points)
         });
         if let Some(strength) = law.family().strength_parameter() {
-            let (values, scatter) = (&self.fit.values, self.scatter());
-            let groups = self.groups();
-            let (low, high) = law.range(case.scene(), strength, values, &groups, scatter);
-            let of_strength = (values[strength] / low).max(high / values[strength]).ln();
-            self.at_least = (high == f64::INFINITY && low > 0.0).then_some(low);
-            // The error of a law has one sign at all speeds. Where larger restitutions fit any strength, no interval has an end.
-            let error = |(point, _): &(Point, f64)| {
-                (point.speed, law.error_at(case.scene(), values, point.speed))
-            };
-            let errors: Vec<(f64, f64)> = groups.iter().map(error).collect();
-            let shifted = |sign: f64| {
-                let nearest = |speed: f64| {
-                    let distance = |it: &&(f64, f64)| (it.0 / speed).ln().abs();
-                    errors.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
-                };
-                let shifted = |point: &Point| {
-                    let error = nearest(point.speed).map_or(f64::NAN, |(_, error)| *error);
-                    let restitution = (point.restitution + sign * error).clamp(0.0, 1.0);
-                    error.is_finite().then_some(Point { restitution, ..*point })
-                };
-                refit(law, &points.iter().map(shifted).collect::<Option<Vec<_>>>()?)
-            };
+            let (values, groups) = (&self.fit.values, self.groups());
+            let range = law.range(case.scene(), strength, values, &groups, self.scatter());
+            let of_strength = (values[strength] / range.0).max(range.1 / values[strength]).ln();
+            self.at_least = open_from(range);
             let others = match problem.free.iter().all(|free| free.index == strength) {
-                true => Some(vec![0.0]),
-                false => shifted(1.0).zip(shifted(-1.0)).map(|(above, below)| {
-                    above
-                        .iter()
-                        .zip(below)
-                        .map(|(above, below)| 0.5 * above - 0.5 * below)
-                        .collect()
-                }),
+                true => vec![0.0],
+                false => {
+                    let shifted = self.shifted_by_error(case, law, &groups);
+                    let both = shifted.map(|points| refit(law, &points?));
+                    let both = both.each_ref().map(Option::as_deref);
+                    // Where larger restitutions fit any strength, no interval has an end.
+                    match both {
+                        [Some(above), Some(below)] => half_difference(above, below),
+                        _ => vec![f64::NAN; keys.len()],
+                    }
+                }
             };
-            let others = others.unwrap_or_else(|| vec![f64::NAN; keys.len()]);
             let of_free = |(free, other): (&Free, f64)| match free.index == strength {
                 true => of_strength,
                 false => other,
@@ -159,6 +143,32 @@ impl<'a> LawFit<'a> {
             estimate.widen(error, problem.is_logarithmic(free), self.confidence);
         }
         self
+    }
+
+    /// Returns the data with restitutions that are larger and smaller by the error of the law, which has one sign at all speeds and that of
+    /// the nearest group; `None` if an error is not known.
+    fn shifted_by_error(
+        &self,
+        case: &Case,
+        law: &ChosenLaw,
+        groups: &[(Point, f64)],
+    ) -> [Option<Vec<Point>>; 2] {
+        let error = |(point, _): &(Point, f64)| {
+            (point.speed, law.error_at(case.scene(), &self.fit.values, point.speed))
+        };
+        let errors: Vec<(f64, f64)> = groups.iter().map(error).collect();
+        let nearest = |speed: f64| {
+            let distance = |it: &&(f64, f64)| (it.0 / speed).ln().abs();
+            let found = errors.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            found.map(|(_, error)| *error).filter(|error| error.is_finite())
+        };
+        [1.0, -1.0].map(|sign| {
+            let shifted = |point: &Point| {
+                let restitution = point.restitution + sign * nearest(point.speed)?;
+                Some(Point { restitution: restitution.clamp(0.0, 1.0), ..*point })
+            };
+            self.data.points.iter().map(shifted).collect()
+        })
     }
 
     /// Returns a few points that stand for neighbours in speed, with the sums of their weights: the error of a law is a smooth function

@@ -6,7 +6,7 @@ use fem_data::table::Measured;
 use fem_laws::{LawFamily, LawParameter, ParameterRole};
 use serde_json::{Value, json};
 
-use super::chosen_law::{ChosenLaw, strength_at_reference_rate};
+use super::chosen_law::{ChosenLaw, open_from, strength_at_reference_rate};
 use super::law_fault::LawFault;
 use fem_data::estimate::{find_parameter, loss_parameter};
 
@@ -104,8 +104,7 @@ impl LawInversion {
 
     /// Returns the least value, SI, if the restitution is that of all larger ones too, within the error of the law.
     pub fn at_least(&self, solution: usize) -> Option<f64> {
-        let (low, high) = self.by_law[solution];
-        (high == f64::INFINITY && low > 0.0).then_some(low)
+        open_from(self.by_law[solution])
     }
 
     /// Returns the error of a solution, SI, by that of the law.
