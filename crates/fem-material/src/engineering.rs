@@ -51,6 +51,11 @@ impl Unit {
     }
 }
 
+/// Returns whether values of a parameter's unit are shown with the prefixes of [`show`]; those of compound units are not.
+pub fn takes_prefix(unit: &str) -> bool {
+    ["s", "m/s", "Pa"].contains(&unit)
+}
+
 /// Formats `value` in a fitting unit, or with an exponent if there is no prefix for it.
 pub fn show(value: f64, symbol: &str) -> String {
     let exponent = value.abs().log10();

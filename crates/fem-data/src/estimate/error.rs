@@ -1,7 +1,7 @@
 //! Errors of fits, inverse problems and cradle trials.
 
 use fem_laws::{LawError, LawParameter};
-use fem_material::engineering::{number, show};
+use fem_material::engineering::{number, show, takes_prefix};
 use thiserror::Error;
 
 /// The data do not determine the result, or a collision cannot be computed.
@@ -114,7 +114,7 @@ pub enum FitError {
 
 fn shown(value: f64, parameter: &LawParameter) -> String {
     match parameter.unit {
-        unit @ ("Pa" | "s" | "m/s") => show(value, unit),
+        unit if takes_prefix(unit) => show(value, unit),
         unit => format!("{} {unit}", number(value, 4)).trim_end().to_string(),
     }
 }

@@ -4,7 +4,7 @@ use comfy_table::CellAlignment::{self, Left, Right};
 use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, Width};
 use fem::fit::cradle::Measured;
 use fem_case::Scene;
-use fem_case::engineering::show;
+use fem_case::engineering::{show, takes_prefix};
 use fem_mesh::{Quality, SphereMesh};
 use indicatif::HumanCount;
 
@@ -71,7 +71,7 @@ pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
 }
 
 pub fn show_value(value: f64, unit: &str) -> String {
-    if ["s", "m/s", "Pa"].contains(&unit) {
+    if takes_prefix(unit) {
         show(value, unit)
     } else if (0.01..1e5).contains(&value.abs()) || value == 0.0 {
         let digits = (3 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;

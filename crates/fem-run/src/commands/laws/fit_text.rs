@@ -7,7 +7,7 @@ use fem::fit::{Estimate, Fit, InputPart, Model, Profile, Robustness};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem::measured::Restitutions;
 use fem_case::UncertainInput;
-use fem_case::engineering::{Unit, number, show};
+use fem_case::engineering::{Unit, number, show, takes_prefix};
 use fem_case::schema::End;
 use fem_laws::{LawFamily, LawParameter};
 
@@ -39,7 +39,7 @@ pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
 
 /// Returns a value with its standard error in one unit, `569 ± 197 µs`.
 pub fn with_error(value: f64, error: Option<f64>, unit: &str) -> String {
-    let (unit, scale) = match ["s", "m/s", "Pa"].contains(&unit) {
+    let (unit, scale) = match takes_prefix(unit) {
         true => {
             let fitting = Unit::fitting(value, unit);
             (fitting.symbol().to_string(), fitting.scaled(1.0))
