@@ -58,6 +58,7 @@ mod plastic_yield;
 mod plate;
 mod radiation;
 mod surface_slip;
+mod tangential;
 mod ting;
 
 pub use adhesion::{Adhesion, RANGE_OF_ATTRACTION};
@@ -87,4 +88,5 @@ pub use radiation::{
     radiated_share, radiation_coefficient, radiation_damping, rayleigh_wave_speed,
 };
 pub use surface_slip::{SlipSurface, SurfaceSlip};
+pub use tangential::{NormalSprings, TangentialContact, TangentialImpact, TangentialInstant};
 pub use ting::Ting;

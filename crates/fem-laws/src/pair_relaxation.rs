@@ -20,7 +20,7 @@
 //! A body whose bulk modulus relaxes with its shear modulus (`ActsOn::All`) is one element, an
 //! elastic body a constant, a rigid wall nothing. Limits: linear viscoelasticity.
 
-use fem_material::{ActsOn, Material, PronyTerm, relaxation_at};
+use fem_material::{ActsOn, ElasticModuli, Material, PronyTerm, relaxation_at};
 
 use crate::error::{LawError, positive};
 use crate::numerics::secular_equation::{Pole, merged, zeros};
@@ -39,14 +39,25 @@ impl PairRelaxation {
     /// # Errors
     /// Two walls; relaxation times so short or long that a rate leaves the range of f64.
     pub fn new(first: Option<&Material>, second: Option<&Material>) -> Result<Self, LawError> {
-        let mut chain = Vec::new();
-        for material in [first, second].into_iter().flatten() {
-            add_elements(&mut chain, material)?;
-        }
-        if chain.is_empty() {
-            return Err(LawError::TwoWalls);
-        }
-        Self::of_chain(&chain)
+        Self::of_chain(&chain_of(Direction::Normal, [first, second])?)
+    }
+
+    /// Returns the tangential modulus G* before relaxation, Pa, and its relaxation function, as [`PairRelaxation::new`] does those of E*:
+    ///
+    /// ```math
+    /// \frac1{G^*(s)} = \sum_{i=1,2}\frac{2-\nu_i}{4G_i}(s)
+    /// = \sum_{i=1,2}\left[\frac1{\tfrac83G_i(s)} + \frac1{\tfrac83\,(3K_i(s)+G_i(s))}\right].
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`PairRelaxation::new`].
+    pub fn tangential(
+        first: Option<&Material>,
+        second: Option<&Material>,
+    ) -> Result<(f64, Self), LawError> {
+        let chain = chain_of(Direction::Tangential, [first, second])?;
+        let compliance: f64 = chain.iter().map(|element| element.instantaneous().recip()).sum();
+        Ok((positive("tangential modulus", compliance.recip())?, Self::of_chain(&chain)?))
     }
 
     fn of_chain(chain: &[Element]) -> Result<Self, LawError> {
@@ -143,11 +154,47 @@ impl Element {
     }
 }
 
-fn add_elements(chain: &mut Vec<Element>, material: &Material) -> Result<(), LawError> {
+/// Direction of the displacement relative to the surface.
+#[derive(Clone, Copy)]
+enum Direction {
+    Normal,
+    Tangential,
+}
+
+impl Direction {
+    /// Returns the modulus of a body of one Poisson's ratio, and those of a chain of two elements in units of its shear modulus and of
+    /// three times its bulk modulus.
+    fn moduli(self, moduli: &ElasticModuli) -> (f64, [[f64; 2]; 2]) {
+        match self {
+            Self::Normal => (moduli.plane_strain_modulus(), [[4.0, 0.0], [4.0 / 3.0, 4.0 / 3.0]]),
+            Self::Tangential => {
+                let modulus = 4.0 * moduli.shear_modulus() / (2.0 - moduli.poissons_ratio());
+                (modulus, [[8.0 / 3.0, 0.0], [8.0 / 3.0, 8.0 / 3.0]])
+            }
+        }
+    }
+}
+
+fn chain_of(
+    direction: Direction,
+    materials: [Option<&Material>; 2],
+) -> Result<Vec<Element>, LawError> {
+    let mut chain = Vec::new();
+    for material in materials.into_iter().flatten() {
+        add_elements(&mut chain, direction, material)?;
+    }
+    if chain.is_empty() { Err(LawError::TwoWalls) } else { Ok(chain) }
+}
+
+fn add_elements(
+    chain: &mut Vec<Element>,
+    direction: Direction,
+    material: &Material,
+) -> Result<(), LawError> {
     let moduli = material.instantaneous();
-    let plane_strain = moduli.plane_strain_modulus();
+    let (whole, parts) = direction.moduli(&moduli);
     let Some(series) = material.relaxation() else {
-        chain.push(Element { equilibrium: plane_strain, terms: Vec::new() });
+        chain.push(Element { equilibrium: whole, terms: Vec::new() });
         return Ok(());
     };
     let element = |relaxing: f64, constant: f64| -> Result<Element, LawError> {
@@ -161,11 +208,12 @@ fn add_elements(chain: &mut Vec<Element>, material: &Material) -> Result<(), Law
         })
     };
     match series.acts_on() {
-        ActsOn::All => chain.push(element(plane_strain, 0.0)?),
+        ActsOn::All => chain.push(element(whole, 0.0)?),
         ActsOn::Shear => {
             let (bulk, shear) = (moduli.bulk_modulus(), moduli.shear_modulus());
-            chain.push(element(4.0 * shear, 0.0)?);
-            chain.push(element(4.0 / 3.0 * shear, 4.0 * bulk)?);
+            for [of_shear, of_bulk] in parts {
+                chain.push(element(of_shear * shear, of_bulk * 3.0 * bulk)?);
+            }
         }
     }
     Ok(())

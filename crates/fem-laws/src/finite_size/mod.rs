@@ -31,6 +31,7 @@ mod sphere_compliance;
 use fem_material::Material;
 
 use crate::error::LawError;
+use crate::finite_size::coefficient::Coefficient;
 use crate::finite_size::correction::{Correction, RelaxingCorrection};
 use crate::finite_size::sphere_compliance::{Parts, SphereCompliance};
 use crate::numerics::functions::ln;
@@ -57,9 +58,26 @@ impl FiniteSize {
         first: Option<(f64, &Material)>,
         second: Option<(f64, &Material)>,
     ) -> Result<Self, LawError> {
-        let spheres = [first, second].into_iter().flatten();
-        let spheres = spheres.map(|(radius, material)| SphereCompliance::new(radius, material));
-        let spheres = spheres.collect::<Result<_, LawError>>()?;
+        Self::of_loads(Coefficient::NORMAL, [first, second])
+    }
+
+    /// Creates the correction of a load across the axis, c_t of [`crate::finite_size::coefficient`], as [`FiniteSize::new`] that of
+    /// one along it.
+    ///
+    /// # Errors
+    /// Those of [`FiniteSize::new`].
+    pub fn tangential(bodies: [Option<(f64, &Material)>; 2]) -> Result<Self, LawError> {
+        Self::of_loads(Coefficient::TANGENTIAL, bodies)
+    }
+
+    fn of_loads(
+        coefficient: Coefficient,
+        bodies: [Option<(f64, &Material)>; 2],
+    ) -> Result<Self, LawError> {
+        let spheres = bodies.into_iter().flatten();
+        let spheres = spheres
+            .map(|(radius, material)| SphereCompliance::new(coefficient, radius, material))
+            .collect::<Result<_, LawError>>()?;
         Ok(Self { spheres, largest_ratio: Self::MAX_CONTACT_RATIO })
     }
 

@@ -19,7 +19,7 @@
 use fem_material::{ActsOn, Material, PronyTerm};
 
 use crate::error::{LawError, positive};
-use crate::finite_size::coefficient::coefficient;
+use crate::finite_size::coefficient::Coefficient;
 use crate::numerics::secular_equation::{Pole, merged};
 
 /// Equilibrium weights above this are inside the interpolation, to keep its nodes apart.
@@ -60,12 +60,16 @@ struct Relaxing {
 impl SphereCompliance {
     /// # Errors
     /// A radius or a relaxation rate that is not positive and finite.
-    pub fn new(radius: f64, material: &Material) -> Result<Self, LawError> {
+    pub fn new(
+        coefficient: Coefficient,
+        radius: f64,
+        material: &Material,
+    ) -> Result<Self, LawError> {
         let radius = positive("radius", radius)?;
         let moduli = material.instantaneous();
         let (bulk, shear) = (moduli.bulk_modulus(), moduli.shear_modulus());
         let unit = (moduli.youngs_modulus() * radius).recip();
-        let instantaneous = coefficient(moduli.poissons_ratio()).into();
+        let instantaneous = coefficient.of(moduli.poissons_ratio()).into();
         let Some(series) = material.relaxation() else {
             return Ok(Self { radius, unit, instantaneous, relaxing: None });
         };
@@ -90,7 +94,7 @@ impl SphereCompliance {
                 // E = 3 y G₀ g/(y+g).
                 let unit = (bulk_ratio + g) / (bulk_ratio + 1.0);
                 let (constant, slope) =
-                    coefficient((bulk_ratio - 2.0 * g) / (2.0 * (bulk_ratio + g)));
+                    coefficient.of((bulk_ratio - 2.0 * g) / (2.0 * (bulk_ratio + g)));
                 [unit * constant, unit * slope]
             });
         }
@@ -165,13 +169,17 @@ mod tests {
             let terms = vec![PronyTerm { weight: 1.0, relaxation_time: 1.0 }];
             let series = PronySeries::new(terms, ActsOn::Shear).unwrap();
             let material = Material::new(1.0, moduli, Some(series)).unwrap();
-            let found = SphereCompliance::new(1.0, &material).unwrap().relaxing.unwrap();
+            let found = SphereCompliance::new(Coefficient::NORMAL, 1.0, &material)
+                .unwrap()
+                .relaxing
+                .unwrap();
             let (bulk, logarithm) = (moduli.bulk_modulus(), 42f64.ln());
             let whole = |[constant, slope]: Parts| constant + slope * logarithm;
             let elastic = |g: f64| {
                 let shear = g * moduli.shear_modulus();
                 let youngs_modulus = 9.0 * bulk * shear / (3.0 * bulk + shear);
-                whole(coefficient(youngs_modulus / (2.0 * shear) - 1.0).into()) / youngs_modulus
+                whole(Coefficient::NORMAL.of(youngs_modulus / (2.0 * shear) - 1.0).into())
+                    / youngs_modulus
             };
             let grid = || (1..=100).map(|i| 0.01 * f64::from(i));
             let largest = grid().map(|g| g * elastic(g).abs()).fold(0.0, f64::max);

@@ -34,7 +34,7 @@ pub struct Impact {
 }
 
 /// State of a contact at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ImpactInstant {
     /// After first touch, s.
     pub time: f64,

@@ -16,6 +16,7 @@ mod pair;
 mod pair_relaxation;
 mod plate;
 mod ramirez;
+mod tangential;
 mod ting;
 mod ting_finite_size;
 mod ting_radiation;
