@@ -141,6 +141,7 @@ mod tests {
                 energies: EnergyLedger::EMPTY,
                 residual: None,
                 vibration: [0.0; 2],
+                tangential: None,
             }
         };
         (0..=1000).map(row).collect()

@@ -73,8 +73,9 @@ pub use fem_material::engineering;
 pub use quantity::temperature::parse_temperature;
 pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
-    Acceleration, Bytes, Count, Damping, Density, Length, Mass, Number, Quantity, QuantityError,
-    QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, SurfaceEnergy, Time, Viscosity,
+    Acceleration, Angle, Bytes, Count, Damping, Density, Length, Mass, Number, Quantity,
+    QuantityError, QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, SurfaceEnergy, Time,
+    Viscosity,
 };
 pub use scene::body::{Body, MeasuredBand, Plate, Shape};
 pub use scene::defaults;

@@ -41,13 +41,14 @@ pub use request::{
     POST_CONTACT_FRACTION, far_radius_at_rest, far_radius_of_waves,
 };
 pub use result::{
-    BodyResult, Bounce, CandidateRegion, Collision, Ending, MAX_RESIDUAL, QuantityOfInterest,
-    RestState, STAY_TOGETHER, StaticContact, Status, Stop,
+    BodyResult, Bounce, CandidateRegion, Collision, Ending, MAX_RESIDUAL, PressureRecord,
+    QuantityOfInterest, RestState, STAY_TOGETHER, StaticContact, Status, Stop, TangentialErrors,
+    TangentialResult,
 };
 pub use run::{
     Account, BalanceSide, DeepestOverlap, DissipatedEnergies, EnergyLedger, ForceNoise, ForcePulse,
     History, HistoryRow, Monitor, PEAK_WINDOW, Phase, PostContactVibration, Progress, PulsePeaks,
     RESOLVING_ELEMENTS, RelativeMotion, RestCriterion, RowKind, STEPS_BETWEEN_REPORTS,
-    SamplingInterval, ShownIn, StepInstant, energy_key, longest_at_pole, nan_aware_max,
-    nan_aware_max_abs,
+    SamplingInterval, ShownIn, StepInstant, TangentialRow, energy_key, longest_at_pole,
+    nan_aware_max, nan_aware_max_abs,
 };

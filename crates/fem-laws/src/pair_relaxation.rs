@@ -192,7 +192,7 @@ fn add_elements(
     material: &Material,
 ) -> Result<(), LawError> {
     let moduli = material.instantaneous();
-    let (whole, parts) = direction.moduli(&moduli);
+    let (whole, parts) = direction.moduli(moduli);
     let Some(series) = material.relaxation() else {
         chain.push(Element { equilibrium: whole, terms: Vec::new() });
         return Ok(());

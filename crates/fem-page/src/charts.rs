@@ -130,7 +130,12 @@ fn colour(account: Account) -> usize {
         Account::ViscousDissipation => 3,
         Account::BulkViscosity | Account::Potential => 4,
         Account::ContactDamping | Account::LeftBefore | Account::Adhesion => 5,
-        Account::Radiated | Account::WallWork | Account::PlasticWork | Account::Plate => 6,
+        Account::Radiated
+        | Account::WallWork
+        | Account::PlasticWork
+        | Account::Plate
+        | Account::Friction
+        | Account::TangentialRelaxation => 6,
     }
 }
 

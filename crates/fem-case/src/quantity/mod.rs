@@ -81,6 +81,7 @@ kinds! {
     Damping, "a damping coefficient", [0, 1, -1, 0], "N s/m", "\"30 N s/m\"";
     Viscosity, "a viscosity", [-1, 1, -1, 0], "Pa s", "\"1e4 Pa s\"";
     Rate, "a rate", [0, 0, -1, 0], "1/s", "\"2708 1/s\"";
+    Angle, "an angle", [0, 0, 0, 0], "rad", "\"30 deg\"";
     Bytes, "an amount of memory", [0, 0, 0, 1], "bytes", "\"8 GB\"";
     Temperature, "a temperature", [0, 0, 0, 0], "K", "\"23 degC\"";
 }

@@ -3,6 +3,8 @@
 //! A unit is `numerator / denominator * 10^ten` in SI. The power of ten is separate so that `units` can convert decimal
 //! numbers without rounding.
 
+use std::f64::consts::PI;
+
 /// The value of a unit in SI: `numerator / denominator * 10^ten`, and its dimension.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UnitScale {
@@ -87,6 +89,10 @@ const UNITS: &[Unit] = &[
     unit("bar", PRESSURE, 5),
     unit("B", BYTES, 0),
     plain_unit("%", NUMBER, -2, [1.0, 1.0]),
+    plain_unit("rad", NUMBER, 0, [1.0, 1.0]),
+    plain_unit("deg", NUMBER, 0, [PI, 180.0]),
+    plain_unit("°", NUMBER, 0, [PI, 180.0]),
+    plain_unit("rpm", [0, 0, -1, 0], 0, [PI, 30.0]),
     plain_unit("min", TIME, 1, [6.0, 1.0]),
     plain_unit("h", TIME, 2, [36.0, 1.0]),
     plain_unit("d", TIME, 2, [864.0, 1.0]),

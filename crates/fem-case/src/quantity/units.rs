@@ -179,7 +179,7 @@ impl Parser<'_> {
     }
 
     fn symbol(&mut self) -> Result<UnitScale, UnitError> {
-        let is_symbol = |c: char| c.is_alphabetic() || c == '%';
+        let is_symbol = |c: char| c.is_alphabetic() || c == '%' || c == '°';
         let end = self.rest.find(|c| !is_symbol(c)).unwrap_or(self.rest.len());
         let (symbol, rest) = self.rest.split_at(end);
         if !symbol.is_empty() {

@@ -15,6 +15,8 @@ pub struct Body {
     pub(crate) shape: Shape,
     pub(crate) own_mass: Option<f64>,
     pub(crate) velocity: f64,
+    pub(crate) tangential_velocity: f64,
+    pub(crate) spin: f64,
     pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
     pub(crate) is_elastic: bool,
@@ -68,6 +70,16 @@ impl Body {
     /// Returns the velocity along +y at time 0, m/s.
     pub fn velocity(&self) -> f64 {
         self.velocity
+    }
+
+    /// Returns the velocity across the axis at time 0, along the same x for both bodies, m/s.
+    pub fn tangential_velocity(&self) -> f64 {
+        self.tangential_velocity
+    }
+
+    /// Returns the angular velocity at time 0, right-handed about x × y, rad/s.
+    pub fn spin(&self) -> f64 {
+        self.spin
     }
 
     /// Returns whether the mass centre of a sphere is fixed.

@@ -27,6 +27,7 @@ pub struct Scene {
     pub(crate) contact_method: Option<ContactMethod>,
     pub(crate) penalty_factor: Option<f64>,
     pub(crate) work_of_adhesion: Option<f64>,
+    pub(crate) friction: f64,
     pub(crate) step_factor: Option<f64>,
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
@@ -96,6 +97,16 @@ impl Scene {
         };
         let typical = WorkOfAdhesion::Typical(2.0 * defaults::TYPICAL_SURFACE_ENERGY);
         self.work_of_adhesion.or(of_pair).map_or(typical, WorkOfAdhesion::Given)
+    }
+
+    /// Returns Coulomb's coefficient of friction, ≥ 0.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    /// Returns whether a body moves across the axis or spins.
+    pub fn is_oblique(&self) -> bool {
+        self.bodies.iter().any(|body| body.tangential_velocity != 0.0 || body.spin != 0.0)
     }
 
     /// Returns the factor on the critical time step, in (0, 1].
@@ -325,13 +336,24 @@ impl Scene {
     /// # Errors
     /// Both bodies are walls, or the moduli have no finite compliance.
     pub fn finite_size(&self) -> Result<FiniteSize, LawError> {
-        let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
-            Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
-            Shape::HalfSpace { .. } | Shape::Plate { .. } | Shape::Rigid { .. } | Shape::Wall => {
-                None
-            }
-        });
+        let [first, second] = self.spheres();
         FiniteSize::new(first, second)
+    }
+
+    /// Returns the compliance of the spheres' finite size across the axis.
+    ///
+    /// # Errors
+    /// Those of [`Scene::finite_size`].
+    pub fn tangential_size(&self) -> Result<FiniteSize, LawError> {
+        FiniteSize::tangential(self.spheres())
+    }
+
+    /// Returns radius (m) and material of the deformable spheres.
+    fn spheres(&self) -> [Option<(f64, &Material)>; 2] {
+        self.bodies.each_ref().map(|body| match &body.shape {
+            Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
+            _ => None,
+        })
     }
 
     /// Returns each body's share of the contact compliance with instantaneous moduli, lower body first.

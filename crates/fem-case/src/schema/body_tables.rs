@@ -1,6 +1,6 @@
 //! `[[body]]` as written.
 
-use crate::quantity::{Length, Mass, Quantity, Speed};
+use crate::quantity::{Angle, Length, Mass, Quantity, Rate, Speed};
 use crate::schema::macros::keywords;
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +17,15 @@ pub struct BodyTable {
     /// Speed toward the other body; 0 if absent, negative if the body recedes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub approach_speed: Option<Quantity<Speed>>,
+    /// Velocity across the axis, along the same x for both bodies; 0 if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tangential_speed: Option<Quantity<Speed>>,
+    /// Angle of the velocity against the axis in place of `tangential_speed`, which is then the approach speed times its tangent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub impact_angle: Option<Quantity<Angle>>,
+    /// Angular velocity of a sphere, right-handed about x × y, where y is from the first body to the second; 0 if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin: Option<Quantity<Rate>>,
     /// Whether the mass centre of a sphere is fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held: Option<bool>,
@@ -71,6 +80,9 @@ impl BodyTable {
             name,
             material,
             approach_speed: None,
+            tangential_speed: None,
+            impact_angle: None,
+            spin: None,
             held: None,
             sphere: None,
             wall: None,

@@ -59,7 +59,7 @@ pub struct CaseFile {
     /// Element sizes of the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshTable>,
-    /// Contact method, penalty stiffness and work of adhesion.
+    /// Contact method, penalty stiffness, work of adhesion and friction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactTable>,
     /// Length of the time step.
@@ -187,7 +187,7 @@ optional_keys! {
 }
 
 optional_keys! {
-    /// `[contact]`: the contact method, the stiffness of its penalty springs, and the adhesion of the pair.
+    /// `[contact]`: the contact method, the stiffness of its penalty springs, adhesion and friction of the pair.
     ContactTable, "a table [contact]" {
         /// Positions of the penalty springs and the nodes that they act on.
         method: ContactMethod,
@@ -195,6 +195,8 @@ optional_keys! {
         penalty_factor: Quantity<Number>,
         /// Work of adhesion of the pair, >= 0; by default it follows from the surface energies of the materials.
         work_of_adhesion: Quantity<SurfaceEnergy>,
+        /// Coulomb's coefficient of friction, >= 0; 0 if absent.
+        friction: Quantity<Number>,
     }
 }
 

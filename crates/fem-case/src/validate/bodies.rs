@@ -1,6 +1,7 @@
 //! The two bodies: name, shape, material, approach.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 use fem_material::Material;
 use fem_material::engineering::show;
@@ -67,16 +68,18 @@ impl Check<'_> {
             self.approach([lower_speed, upper_speed])?;
         }
         // Adding to 0 gives a body at rest the velocity 0, never -0.
-        let lower = ("body.0.sphere.mass", lower, lower_shape, 0.0 + lower_speed);
-        let upper = ("body.1.sphere.mass", upper, upper_shape, 0.0 - upper_speed);
-        let body = |(path, table, shape, velocity): (&str, &BodyTable, _, _)| {
+        let lower = ("body.0", lower, lower_shape, 0.0 + lower_speed);
+        let upper = ("body.1", upper, upper_shape, 0.0 - upper_speed);
+        let body = |(path, table, shape, velocity): (&str, &BodyTable, _, f64)| {
             let own_mass = table.sphere.as_ref().and_then(|sphere| sphere.mass.as_ref());
             let material = table.material.as_ref().and_then(|name| materials.get(name.as_str()));
             Ok(Body {
                 name: table.name.clone(),
                 shape,
-                own_mass: self.optional(path, own_mass, Range::POSITIVE)?,
+                own_mass: self.optional(&join(path, "sphere.mass"), own_mass, Range::POSITIVE)?,
                 velocity,
+                tangential_velocity: self.tangential_velocity(path, table, velocity.abs())?,
+                spin: self.spin(path, table)?,
                 held: table.held.unwrap_or_default(),
                 yield_strength: material.and_then(|material| material.yield_strength),
                 is_elastic: material.is_some_and(|material| material.is_elastic),
@@ -87,6 +90,53 @@ impl Check<'_> {
             })
         };
         Ok([body(lower)?, body(upper)?])
+    }
+
+    /// Returns the velocity across the axis, m/s, of a body with this speed along it, m/s.
+    fn tangential_velocity(
+        &self,
+        path: &str,
+        table: &BodyTable,
+        speed: f64,
+    ) -> Result<f64, CaseError> {
+        let [at_speed, at_angle] = ["tangential_speed", "impact_angle"].map(|key| join(path, key));
+        let given = self.optional(&at_speed, table.tangential_speed.as_ref(), Range::ANY)?;
+        let Some(written) = table.impact_angle.as_ref() else {
+            return Ok(given.unwrap_or_default());
+        };
+        let angle = self.number(&at_angle, written, Range::ANY)?;
+        if angle.abs() >= FRAC_PI_2 {
+            let message = format!("impact_angle is {written}");
+            return Err(self.error(&at_angle, message).with_help(
+                "impact_angle must be between -90 deg and 90 deg: write it with its unit, such as \"30 deg\"",
+            ));
+        }
+        if given.is_some() {
+            let message = "both tangential_speed and impact_angle are given";
+            return Err(self
+                .conflict(&at_angle, &[&at_speed], message)
+                .with_help("keep one of them"));
+        }
+        if angle != 0.0 && speed == 0.0 {
+            let message = format!("\"{}\" has an impact_angle and no approach_speed", table.name);
+            return Err(self.error(&at_angle, message).with_help(
+                "the angle is that of the velocity against the axis: give approach_speed, or tangential_speed in place of the angle",
+            ));
+        }
+        Ok(speed * angle.tan())
+    }
+
+    /// Returns the spin of a sphere, rad/s.
+    fn spin(&self, path: &str, table: &BodyTable) -> Result<f64, CaseError> {
+        let at = join(path, "spin");
+        let spin = self.optional(&at, table.spin.as_ref(), Range::ANY)?.unwrap_or_default();
+        match flat(table) {
+            Some(flat) if spin != 0.0 => {
+                let message = format!("a {} does not spin", flat.replace('_', "-"));
+                Err(self.error(&at, message).with_help("give its tangential_speed, or remove spin"))
+            }
+            _ => Ok(spin),
+        }
     }
 
     /// Checks that bodies with these approach speeds, m/s, meet.

@@ -70,6 +70,7 @@ pub(crate) fn validate(
         contact_method: contact.method,
         penalty_factor: number!(contact.penalty_factor, Range::POSITIVE),
         work_of_adhesion: number!(contact.work_of_adhesion, Range::WORK_OF_ADHESION),
+        friction: number!(contact.friction, Range::NOT_NEGATIVE).unwrap_or_default(),
         step_factor: number!(time.step_factor, Range::STEP_FACTOR),
         mass_scaling: number!(time.mass_scaling, Range::MASS_SCALING),
         snapshots: output.snapshots.as_ref().map(|value| check.snapshots(value)).transpose()?,
@@ -94,7 +95,7 @@ pub(crate) fn validate(
 /// Returns whether a key is that of a measured input.
 fn is_measured(key: &str) -> bool {
     const TABLES: [&str; 5] = ["material.", "body.", "start.", "gravity.", "model.law."];
-    ["contact.work_of_adhesion", "scene.temperature"].contains(&key)
+    ["contact.work_of_adhesion", "contact.friction", "scene.temperature"].contains(&key)
         || TABLES.iter().any(|table| key.starts_with(table))
 }
 

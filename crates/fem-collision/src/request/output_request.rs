@@ -29,6 +29,8 @@ pub struct OutputRequest {
     pub snapshots: SnapshotRequest,
     /// Points whose fields are recorded over time.
     pub probes: Vec<ProbeRequest>,
+    /// Whether the pressures at each step of the contact are kept, by a model that has them.
+    pub pressures: bool,
     /// Number of expected contact times after which the run stops.
     pub max_contact_times: f64,
     /// Largest number of elements times steps, for a model that computes each element at each step.
@@ -71,6 +73,7 @@ impl OutputRequest {
             history_rows: Self::ROWS,
             snapshots: SnapshotRequest::none(),
             probes: Vec::new(),
+            pressures: false,
             max_contact_times: Self::MAX_CONTACT_TIMES,
             most_element_updates: u64::MAX,
         }

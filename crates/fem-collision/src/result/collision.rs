@@ -87,6 +87,11 @@ pub struct Collision {
     pub bounces: Vec<Bounce>,
     /// The state of a ball that has come to rest.
     pub rest: Option<RestState>,
+    /// The tangential half of an oblique impact; `None` of a head-on one, or of bodies that stay together.
+    pub tangential: Option<TangentialResult>,
+    /// Force and pressures at the steps of the contact, if they were asked for
+    /// ([`OutputRequest::pressures`](crate::OutputRequest::pressures)).
+    pub pressures: Option<PressureRecord>,
     /// Samples over contact and separation.
     pub history: Vec<HistoryRow>,
     /// Fields of finite elements, in the order of time.
@@ -126,6 +131,43 @@ impl Bounce {
             ..Collision::empty(approach, Ending::Parted)
         })
     }
+}
+
+/// The tangential half of an oblique impact. Velocities are along x, angular ones right-handed about x × y.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TangentialResult {
+    /// Velocity of the contact patch of the first body relative to that of the second, before and after, m/s.
+    pub patch_velocity: [f64; 2],
+    /// Tangential over normal impulse; positive against the velocity of the patch before.
+    pub impulse_ratio: f64,
+    /// Velocities of the mass centres after the impact, m/s.
+    pub velocities: [f64; 2],
+    /// Angular velocities after the impact, rad/s.
+    pub spins: [f64; 2],
+    /// Parts of the error of the velocity of the patch after the impact, m/s; `None` of one that is not known.
+    pub errors: TangentialErrors,
+}
+
+/// Parts of the error of the velocity of a rebounding contact patch, m/s, at the restitution that the model computes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TangentialErrors {
+    /// By the numbers of springs and steps.
+    pub discretisation: Option<f64>,
+    /// By neglected effects.
+    pub model: Option<f64>,
+    /// By the uncertainty of the coefficient of friction, if the case gives it.
+    pub input: Option<f64>,
+}
+
+/// Force and pressures of a contact at equal steps of time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PressureRecord {
+    /// s.
+    pub time_step: f64,
+    /// N.
+    pub forces: Vec<f64>,
+    /// Pairs of radius (m) and pressure (Pa) from the axis outward.
+    pub profiles: Vec<Vec<(f64, f64)>>,
 }
 
 /// The static contact of a ball at rest, after all relaxation.
@@ -218,6 +260,8 @@ impl Collision {
             repeated_contact_solutions: None,
             bounces: Vec::new(),
             rest: None,
+            tangential: None,
+            pressures: None,
             history: Vec::new(),
             snapshots: Vec::new(),
             unloaded: None,

@@ -42,6 +42,10 @@ pub enum Account {
     PlasticWork,
     /// Energy given to the bending waves of a plate, in models without elastic waves of their own.
     Plate,
+    /// Work of friction between surfaces that slide on each other.
+    Friction,
+    /// Energy dissipated by relaxation under the tangential force of an oblique impact.
+    TangentialRelaxation,
 }
 
 /// The side of the energy balance on which an account is entered.
@@ -83,6 +87,8 @@ const LINES: &[(Account, &str, BalanceSide, ShownIn)] = &[
     (Account::Adhesion, "adhesion", BalanceSide::Lost, ShownIn::WhereFilled),
     (Account::PlasticWork, "plastic_work", BalanceSide::Lost, ShownIn::WhereFilled),
     (Account::Plate, "plate", BalanceSide::Lost, ShownIn::WhereFilled),
+    (Account::Friction, "friction", BalanceSide::Lost, ShownIn::InSummary),
+    (Account::TangentialRelaxation, "tangential_relaxation", BalanceSide::Lost, ShownIn::InSummary),
 ];
 
 impl Account {

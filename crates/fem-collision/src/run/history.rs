@@ -147,6 +147,19 @@ pub struct HistoryRow {
     pub residual: Option<f64>,
     /// Kinetic energy of each body relative to its mass centre, or to the far boundary of a half-space, J.
     pub vibration: [f64; 2],
+    /// The tangential contact, of an oblique impact.
+    pub tangential: Option<TangentialRow>,
+}
+
+/// The tangential contact at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TangentialRow {
+    /// Force against a positive velocity of the contact patch, N.
+    pub force: f64,
+    /// Velocity of the patch of the first body relative to that of the second, m/s.
+    pub patch_velocity: f64,
+    /// Radius of the disc that sticks over the contact radius; `None` without a contact.
+    pub stick_ratio: Option<f64>,
 }
 
 impl HistoryRow {
@@ -173,6 +186,7 @@ mod tests {
             energies: EnergyLedger::EMPTY,
             residual: None,
             vibration: [0.0; 2],
+            tangential: None,
         }
     }
 

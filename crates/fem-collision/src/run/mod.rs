@@ -14,7 +14,7 @@ pub use energy_ledger::{
     Account, BalanceSide, DissipatedEnergies, EnergyLedger, ShownIn, energy_key,
 };
 pub use force_noise::ForceNoise;
-pub use history::{History, HistoryRow, RowKind};
+pub use history::{History, HistoryRow, RowKind, TangentialRow};
 pub use monitor::{Monitor, Phase, Progress, STEPS_BETWEEN_REPORTS};
 pub use post_contact::PostContactVibration;
 pub use pulse::{ForcePulse, PEAK_WINDOW, PulsePeaks, RESOLVING_ELEMENTS, longest_at_pole};

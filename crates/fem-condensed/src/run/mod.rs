@@ -7,8 +7,8 @@ pub(crate) mod sample;
 use fem_collision::{
     BodyResult, Collision, DeepestOverlap, Ending, EnergyLedger, ForceNoise, ForcePulse, Frame,
     History, HistoryRow, MAX_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION,
-    PostContactVibration, Progress, RelativeMotion, RestCriterion, STEPS_BETWEEN_REPORTS,
-    StepInstant, Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
+    PostContactVibration, PressureRecord, Progress, RelativeMotion, RestCriterion,
+    STEPS_BETWEEN_REPORTS, StepInstant, Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
 use fem_laws::SINKING_LAMBDA;
 
@@ -89,6 +89,8 @@ pub(crate) struct ImpactRun<'a> {
     opening: Option<[MotionSample; 3]>,
     trace: Vec<RunTrace>,
     pressures: Pressures,
+    /// Force and pressures of all steps so far, if they are asked for.
+    record: Option<PressureRecord>,
 }
 
 /// Result of a run.
@@ -150,6 +152,7 @@ impl<'a> ImpactRun<'a> {
             opening: None,
             trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MAX_RESERVED)),
             pressures: Pressures::default(),
+            record: request.pressures.then(PressureRecord::default),
             motion,
         }
     }
@@ -336,6 +339,13 @@ impl<'a> ImpactRun<'a> {
             motion.slipped(),
             &mut self.pressures,
         );
+        if let Some(record) = &mut self.record {
+            let within = self.pair.nodal_pressure(&motion.forces);
+            let within = within.take_while(|(radius, _)| *radius < contact_radius);
+            record.time_step = motion.time_step;
+            record.forces.push(motion.force);
+            record.profiles.push(within.chain([(contact_radius, 0.0)]).collect());
+        }
         MotionSample {
             time: motion.time(),
             touches,
@@ -410,6 +420,7 @@ impl<'a> ImpactRun<'a> {
             energy_growth: Some(self.growth),
             momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
             bodies,
+            pressures: self.record,
             time_step: Some(motion.time_step),
             steps: Some(motion.step as u64),
             factor_bytes: Some(self.pair.factor_bytes() as u64),

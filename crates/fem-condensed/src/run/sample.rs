@@ -125,6 +125,7 @@ impl MotionSample {
             energies: self.energies(frame),
             residual: Some(self.residual),
             vibration: self.vibration,
+            tangential: None,
         }
     }
 }

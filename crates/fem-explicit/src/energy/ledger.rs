@@ -258,6 +258,7 @@ impl Ledger {
             energies,
             residual: Some(residual),
             vibration: [lower.vibration, upper.vibration],
+            tangential: None,
         }
     }
 

@@ -108,6 +108,16 @@ impl TangentialContact {
         Self { friction, ..self }
     }
 
+    /// Returns m_t, kg.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Returns whether the bodies have a finite size.
+    pub fn has_finite_size(&self) -> bool {
+        self.size.is_some()
+    }
+
     /// Returns G* before relaxation, Pa.
     pub fn modulus(&self) -> f64 {
         self.modulus

@@ -76,16 +76,48 @@ impl NormalSprings {
         Ok(springs.scaled_to(pair.effective_mass() * momentum))
     }
 
-    /// Creates the springs of a contact from its forces (N) and pressures at equal steps, each given by pairs of r (m) and p (Pa) from
-    /// the axis outward, between which the pressure is linear.
-    pub fn of_pressures(time_step: f64, forces: Vec<f64>, profiles: &[Vec<(f64, f64)>]) -> Self {
-        let pressed = |profile: &Vec<(f64, f64)>| {
-            profile.iter().rev().find(|(_, p)| *p > 0.0).map_or(0.0, |(r, _)| *r)
+    /// Creates the springs of a contact of a duration (s) from its forces (N) and pressures at equal steps, each given by pairs of r
+    /// (m) and p (Pa) from the axis outward, between which the square of the pressure is linear in that of the radius.
+    pub fn of_pressures(
+        contact_time: f64,
+        time_step: f64,
+        forces: &[f64],
+        profiles: &[Vec<(f64, f64)>],
+    ) -> Self {
+        let radii: Vec<_> =
+            profiles.iter().map(|profile| profile.last().map_or(0.0, |(r, _)| *r)).collect();
+        let last = forces.len().min(profiles.len()).saturating_sub(1);
+        let own_step = contact_time / (Self::N_STEPS as f64 + 0.5);
+        let place = |step: usize| {
+            let at = (step as f64 * own_step / time_step).min(last as f64);
+            let before = (at as usize).min(last.saturating_sub(1));
+            (before, at - before as f64)
         };
-        let radii: Vec<_> = profiles.iter().map(pressed).collect();
-        Self::new(time_step, &radii, forces, |step, places, loads| {
-            for (place, load) in places.iter().zip(loads) {
-                *load = line_load(&profiles[step], *place);
+        let between = |values: &[f64], (before, share): (usize, f64)| {
+            let after = (before + 1).min(last);
+            values[before] + share * (values[after] - values[before])
+        };
+        let of = |values: &[f64]| -> Vec<f64> {
+            (0..Self::N_STEPS + 2).map(|step| between(values, place(step))).collect()
+        };
+        let mut known: [(usize, Vec<f64>); 2] =
+            [(usize::MAX, Vec::new()), (usize::MAX, Vec::new())];
+        Self::new(own_step, &of(&radii), of(forces), |step, places, loads| {
+            let (before, share) = place(step);
+            if known[1].0 == before {
+                known.swap(0, 1);
+            }
+            for (k, (own, of_step)) in known.iter_mut().enumerate() {
+                let wanted = (before + k).min(last);
+                if *own != wanted {
+                    let profile = &profiles[wanted];
+                    *of_step = places.iter().map(|place| line_load(profile, *place)).collect();
+                    *own = wanted;
+                }
+            }
+            for (spring, load) in loads.iter_mut().enumerate() {
+                let [(_, a), (_, b)] = &known;
+                *load = a[spring] + share * (b[spring] - a[spring]);
             }
         })
     }
@@ -124,8 +156,9 @@ impl NormalSprings {
         self.time_step * (0..=self.n_steps()).map(|step| self.force(step)).sum::<f64>()
     }
 
-    /// Scales the loads to an impulse, N s, which the sum over the steps has up to their square.
-    fn scaled_to(mut self, impulse: f64) -> Self {
+    /// Returns the springs with loads scaled to an impulse, N s, which the sum over the steps has up to their square.
+    #[must_use]
+    pub fn scaled_to(mut self, impulse: f64) -> Self {
         let scale = impulse / self.impulse();
         self.loads.iter_mut().for_each(|load| *load *= scale);
         self
@@ -261,20 +294,28 @@ pub(super) fn ramp(x: f64) -> f64 {
     if x > 0.0 { -libm::expm1(-x) / x } else { 1.0 }
 }
 
-/// Returns q(x), N/m, of a pressure that is linear between the given radii and 0 outside.
+/// Returns q(x), N/m, of a pressure whose square is linear in r² between the given radii, as Hertz' is, and 0 outside.
 fn line_load(profile: &[(f64, f64)], x: f64) -> f64 {
-    // ∫ r (α + β r)/√(r² − x²) dr.
-    let integral = |r: f64, alpha: f64, beta: f64| {
-        let root = ((r - x) * (r + x)).max(0.0).sqrt();
-        let logarithm = if x > 0.0 { 0.5 * x * x * ((r + root) / x).ln() } else { 0.0 };
-        alpha * root + beta * (0.5 * r * root + logarithm)
+    if profile.last().is_none_or(|(outer, _)| *outer <= x) {
+        return 0.0;
+    }
+    // ∫√(c − b s²) ds with s² = r² − x².
+    let integral = |s: f64, c: f64, b: f64| {
+        let root = (c - b * s * s).max(0.0).sqrt();
+        let ratio = s * (b.abs() / c).sqrt();
+        let turned = if b > 0.0 { ratio.min(1.0).asin() } else { ratio.asinh() };
+        0.5 * s * if ratio > 1e-6 { root + c.sqrt() * turned / ratio } else { 2.0 * root }
     };
-    let segments = profile.windows(2).filter(|ends| ends[1].0 > x && ends[1].0 > ends[0].0);
     let of_segment = |ends: &[(f64, f64)]| {
         let [(inner, p), (outer, q)] = [ends[0], ends[1]];
-        let slope = (q - p) / (outer - inner);
-        let constant = p - slope * inner;
-        integral(outer, constant, slope) - integral(inner.max(x), constant, slope)
+        let slope = (p * p - q * q) / (outer * outer - inner * inner);
+        let at_place = p * p - slope * (x * x - inner * inner);
+        let s = |r: f64| (r * r - x * x).max(0.0).sqrt();
+        if at_place <= 0.0 {
+            return 0.5 * (p + q) * (s(outer) - s(inner));
+        }
+        integral(s(outer), at_place, slope) - integral(s(inner), at_place, slope)
     };
+    let segments = profile.windows(2).filter(|ends| ends[1].0 > x && ends[1].0 > ends[0].0);
     (2.0 * segments.map(of_segment).sum::<f64>()).max(0.0)
 }

@@ -34,9 +34,10 @@ pub use decision::simplified_scene::{Transformation, TransformedScene};
 pub use decision::support::{Adequacy, ConsideredModel, Support};
 pub use decision::{
     AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, EffectKind,
-    FiniteSizeEffect, FiniteStrain, Gravity, HourglassControl, MassScaling, MaterialLoss,
-    MirrorSymmetry, NamedEffect, PartnerWaves, PenaltySprings, PlasticFlow, PlateBending,
-    RateDependence, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
+    FiniteSizeEffect, FiniteStrain, FrictionEffect, Gravity, HourglassControl, MassScaling,
+    MaterialLoss, MirrorSymmetry, NamedEffect, PartnerWaves, PenaltySprings, PlasticFlow,
+    PlateBending, RateDependence, RigidPartner, SurfaceSlip, TangentialCoupling, Vibration,
+    Viscoelasticity,
 };
 
 /// The decision on one effect, with its reason.

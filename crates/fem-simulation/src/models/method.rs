@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
+use fem_laws::NormalSprings;
 use fem_laws::laws::ContactLaw;
 use fem_mesh::SphereMesh;
 
@@ -147,6 +148,12 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// # Errors
     /// A contact that the model cannot compute.
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection>;
+
+    /// Returns the contact of a collision of this model as independent springs, made with
+    /// [`OutputRequest::pressures`]; `None` of a model without a distribution of its pressure.
+    fn normal_springs(&self, _: &Collision) -> Option<NormalSprings> {
+        None
+    }
 
     /// Returns the meshes; `None` for a wall, or in a model without elements.
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

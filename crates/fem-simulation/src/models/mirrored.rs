@@ -7,6 +7,7 @@ use fem_collision::{
     DeepestOverlap, EnergyLedger, HistoryRow, Monitor, OutputRequest, Snapshot, StaticContact,
     Stop,
 };
+use fem_laws::NormalSprings;
 use fem_mesh::{Side, SphereMesh};
 
 use crate::effects::{Effect, MirrorSymmetry, Support, decide};
@@ -111,6 +112,10 @@ impl<M: Model> Model for Mirrored<M> {
     /// Gravity makes bodies differ, so it never meets mirror symmetry.
     fn static_contact(&self, _: f64) -> Result<Option<StaticContact>, Rejection> {
         Ok(None)
+    }
+
+    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
+        self.half.normal_springs(collision)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

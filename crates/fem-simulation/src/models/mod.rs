@@ -6,6 +6,7 @@ pub(crate) mod condensed;
 pub(crate) mod explicit;
 pub(crate) mod method;
 mod mirrored;
+mod oblique;
 mod own_frame;
 mod reduced;
 pub(crate) mod stepper;
@@ -20,6 +21,7 @@ use crate::models::method::{ExpectedRun, Method, Model, ModelSetup, SharedModels
 use crate::rejection::Rejection;
 
 use bouncing::Bouncing;
+use oblique::Oblique;
 use sticking::{Bond, Sticking};
 
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
@@ -86,6 +88,7 @@ impl ComputedScene {
         let regime = &self.selected.regime;
         let bond = Bond::of(&self.given.scene);
         let model = Sticking::around(self.method().build(regime, shared)?, bond);
+        let model = Oblique::around(model, &regime.scene)?;
         Ok(match self.given.scene.gravity() {
             Some(gravity) => Box::new(Bouncing::new(regime, gravity, model, bond)?),
             None => model,

@@ -9,7 +9,7 @@ use fem_case::{Body, Scene};
 use fem_collision::{
     Account, Approach, BodyResult, Collision, Ending, Monitor, OutputRequest, StaticContact, Stop,
 };
-use fem_laws::Adhesion;
+use fem_laws::{Adhesion, NormalSprings};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{AdhesionEffect, Effect, Support};
@@ -147,6 +147,10 @@ impl Model for Sticking {
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         self.model.static_contact(force)
+    }
+
+    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
+        self.model.normal_springs(collision)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

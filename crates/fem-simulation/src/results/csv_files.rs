@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use fem_case::Scene;
 use fem_collision::{
-    Account, Collision, ContactProfile, HistoryRow, ProbeRequest, Snapshot, energy_key,
+    Account, Collision, ContactProfile, HistoryRow, ProbeRequest, Snapshot, TangentialRow,
+    energy_key,
 };
 
 use super::dent::dents;
@@ -40,6 +41,17 @@ pub fn history_columns(scene: &Scene, rows: &[HistoryRow]) -> HistoryColumns {
     columns.extend(energies.iter().map(of_account));
     columns.push(column("residual_j", &|row| row.residual));
     columns.extend(of_effects.iter().map(of_account));
+    if rows.iter().any(|row| row.tangential.is_some()) {
+        let across = |name: &str, value: fn(&TangentialRow) -> Option<f64>| {
+            column(name, &|row| value(row.tangential.as_ref()?))
+        };
+        columns.extend([
+            across("tangential_force_n", |row| Some(row.force)),
+            across("patch_velocity_m_s", |row| Some(row.patch_velocity)),
+            across("stick_radius_over_contact_radius", |row| row.stick_ratio),
+        ]);
+        columns.extend([Account::Friction, Account::TangentialRelaxation].iter().map(of_account));
+    }
     columns
 }
 

@@ -16,6 +16,7 @@ mod energy;
 mod snapshots;
 mod summarise;
 mod summary;
+mod tangential;
 
 pub use crate::error::ElasticNull;
 #[cfg(feature = "files")]

@@ -12,8 +12,9 @@ use super::energy::{Accounts, Energy};
 use super::measured::MeasuredSummary;
 use super::summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
-    PlateSummary, Quantities, RestSummary, Summary,
+    PlateSummary, Quantities, RestSummary, Summary, Uncertainty,
 };
+use super::tangential;
 use super::uncertainty::uncertainty;
 use crate::effects::{AdhesionEffect, EffectDecision, EffectDecisions, FiniteStrain};
 use crate::error::{ComputedCollision, ErrorEstimate};
@@ -67,7 +68,14 @@ impl Summary {
             |quantity| Status::of(quantities.number(quantity), uncertainty.of(quantity).model);
         Self {
             status: PerQuantity::by(status),
-            uncertainty,
+            uncertainty: Uncertainty {
+                axial: uncertainty,
+                tangential: tangential::parts(
+                    collision,
+                    uncertainty.of(QuantityOfInterest::Restitution),
+                ),
+            },
+            tangential: tangential::quantities(collision),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),
@@ -359,6 +367,11 @@ fn body(
             Some(collision.approach.velocities()[side]),
         ),
         velocity_after_m_s: number("velocity_after_m_s", body.velocity_after),
+        velocity_tangential_after_m_s: number(
+            "velocity_tangential_after_m_s",
+            collision.tangential.map(|it| it.velocities[side]),
+        ),
+        spin_after_rad_s: number("spin_after_rad_s", collision.tangential.map(|it| it.spins[side])),
         vibration_energy_j: number("vibration_energy_j", body.vibration_energy),
     }
 }

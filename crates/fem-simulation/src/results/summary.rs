@@ -21,6 +21,9 @@ pub struct Summary {
     /// Quantities of the collision.
     #[serde(flatten)]
     pub collision: Quantities,
+    /// Quantities of an oblique impact, which are `null` of a head-on one.
+    #[serde(flatten)]
+    pub tangential: Tangential,
     /// What each of these numbers is.
     pub status: PerQuantity<Status>,
     /// Largest contact force of a single step; `None` for closed forms.
@@ -66,7 +69,7 @@ pub struct Summary {
     /// The effects: whether they were on, why, and the error of neglecting them.
     pub effects: Vec<EffectSummary>,
     /// Uncertainty of the quantities.
-    pub uncertainty: PerQuantity<Parts>,
+    pub uncertainty: Uncertainty,
     /// Meshes that were too coarse for the tolerance of the case, in order; `None` if the first one was sufficient.
     pub coarser_meshes: Option<Vec<RefinementLevel>>,
     /// The candidate models if the case leaves the choice open, from the cheapest to the most expensive.
@@ -156,6 +159,46 @@ impl Quantities {
         let (radius, pressure) = (self.max_contact_radius_m, self.peak_pressure_pa);
         let all = [restitution, contact_time_s, peak_force_n, max_approach_m, radius, pressure];
         all[quantity as usize]
+    }
+}
+
+/// Tangential quantities of an oblique impact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Tangential {
+    /// Tangential velocity of the contact patch after the collision over that before; `None` if the patch stands before.
+    pub tangential_restitution: Option<f64>,
+    /// Angle of the rebounding patch against the normal; negative if it goes back.
+    pub contact_patch_rebound_deg: Option<f64>,
+    /// Tangential over normal impulse; positive against the velocity of the patch before.
+    pub impulse_ratio: Option<f64>,
+}
+
+/// Error bars of the tangential quantities, written beside those of the others in an oblique impact.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct TangentialParts {
+    /// Of `tangential_restitution`.
+    pub tangential_restitution: Parts,
+    /// Of `contact_patch_rebound_deg`.
+    pub contact_patch_rebound_deg: Parts,
+    /// Of `impulse_ratio`.
+    pub impulse_ratio: Parts,
+}
+
+/// Uncertainty of all quantities.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Uncertainty {
+    /// Of the quantities along the axis.
+    #[serde(flatten)]
+    pub axial: PerQuantity<Parts>,
+    /// Of those across it.
+    #[serde(flatten)]
+    pub tangential: Option<TangentialParts>,
+}
+
+impl Uncertainty {
+    /// Returns the error bar of a quantity along the axis.
+    pub fn of(&self, quantity: QuantityOfInterest) -> Parts {
+        self.axial.of(quantity)
     }
 }
 
@@ -329,6 +372,10 @@ pub struct BodySummary {
     pub velocity_before_m_s: Option<f64>,
     /// Velocity along +y after the collision.
     pub velocity_after_m_s: Option<f64>,
+    /// Velocity along x after an oblique impact.
+    pub velocity_tangential_after_m_s: Option<f64>,
+    /// Angular velocity after it, right-handed about x × y.
+    pub spin_after_rad_s: Option<f64>,
     /// Energy of the remaining vibrations.
     pub vibration_energy_j: Option<f64>,
 }

@@ -27,7 +27,7 @@ fn parts(uncertainty: &PerQuantity<Parts>) -> [Parts; 6] {
 }
 
 fn model(summary: &Summary) -> [f64; 6] {
-    parts(&summary.uncertainty).map(|parts| parts.model.unwrap())
+    parts(&summary.uncertainty.axial).map(|parts| parts.model.unwrap())
 }
 
 /// The error of every model agrees with its model-form error within a factor of three and the reference's discretisation
@@ -87,7 +87,7 @@ fn an_unnamed_law_has_a_model_form_error() {
     let small = summary(GLASS, &[&SMALL[..], &[NO_SNAPSHOTS]].concat());
     assert!(model(&small)[1] > model(&unnamed)[1]);
     // The discretisation error is the other part.
-    assert!(parts(&small.uncertainty).iter().all(|parts| parts.discretisation > Some(0.0)));
+    assert!(parts(&small.uncertainty.axial).iter().all(|parts| parts.discretisation > Some(0.0)));
 }
 
 /// Finite strain changes the loss of a relaxing material independently of the contact time. The bar of small strain
@@ -104,7 +104,8 @@ fn the_loss_at_large_strain_is_a_model_form_error() {
         [SMALL, FINITE].map(|set| summary(ball, &[&set[..], &[NO_SNAPSHOTS]].concat()));
     let [ours, exact] = [&small, &finite]
         .map(|summary| summary.collision.number(QuantityOfInterest::Restitution).unwrap());
-    let [bar, mesh] = [model(&small)[0], parts(&small.uncertainty)[0].discretisation.unwrap()];
+    let [bar, mesh] =
+        [model(&small)[0], parts(&small.uncertainty.axial)[0].discretisation.unwrap()];
     let error = (ours - exact).abs();
     assert!(error > 4e-3 && mesh < 1.5e-3, "{error:e} {mesh:e}");
     assert!(error < bar && bar < 3.0 * error, "{error:e} {bar:e}");
@@ -134,7 +135,7 @@ fn missing_quantities_have_no_error() {
     // The strain is twice that of all computed collisions.
     let flat = ["effects.finite_strain='off'", "body.1.approach_speed='60 m/s'", NO_SNAPSHOTS];
     let flat = crate::scene::summary_of(RUBBER, &[&flat[..], &["model.hertz={}"]].concat());
-    assert!(parts(&flat.uncertainty).iter().all(|parts| parts.model.is_none()));
+    assert!(parts(&flat.uncertainty.axial).iter().all(|parts| parts.model.is_none()));
 }
 
 /// Without plastic flow, all numbers of bodies that yield are bounds: of nylon on steel. Below first yield the restitution
@@ -155,7 +156,7 @@ fn numbers_without_a_known_effect_are_bounds() {
     assert_eq!(found.warnings.len(), 1, "{:?}", found.warnings);
     let slow = "body.1.approach_speed='1 cm/s'";
     let slow = summary(nylon, &[TING, slow]);
-    let [restitution, others @ ..] = parts(&slow.uncertainty);
+    let [restitution, others @ ..] = parts(&slow.uncertainty.axial);
     assert_eq!((restitution.model, restitution.sum()), (None, None));
     assert!(others.iter().all(|parts| parts.sum().is_some() && parts.bound.is_none()));
     assert_eq!(slow.status.of(QuantityOfInterest::ContactTime), Status::Computed);

@@ -2,6 +2,7 @@
 
 mod adhesion;
 mod finite_size;
+mod friction;
 mod gravity;
 mod partner_waves;
 mod plate_bending;

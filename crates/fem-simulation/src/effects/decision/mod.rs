@@ -105,6 +105,12 @@ effects! {
     /// Tangential slip between the surfaces of unlike materials.
     Physical SurfaceSlip = "surface slip" surface_slip:
         "Surfaces of unlike materials slide on each other as they are pressed together.";
+    /// Friction of the surfaces.
+    Physical FrictionEffect = "friction":
+        "Surfaces that slide resist it, and turn and slow down what meets obliquely.";
+    /// Slip along r between unlike bodies under friction.
+    Physical TangentialCoupling = "tangential coupling":
+        "Unlike bodies slip on each other already when they are pressed together, which takes part of the friction.";
     /// Plastic flow of the bodies.
     Physical PlasticFlow = "plastic flow" plastic_flow:
         "Above its yield strength a material deforms permanently and keeps a dent.";

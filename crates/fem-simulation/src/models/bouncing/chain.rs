@@ -186,6 +186,7 @@ impl Chain {
             energies,
             residual: end.residual.map(|_| self.residual),
             vibration: [0.0; 2],
+            tangential: None,
         }
     }
 

@@ -5,9 +5,9 @@ use fem_condensed::CondensedPair;
 
 use super::options;
 use crate::effects::{
-    AdhesionEffect, ContactSearch, Effect, FiniteStrain, Gravity, MaterialLoss, MirrorSymmetry,
-    PartnerWaves, PenaltySprings, PlasticFlow, PlateBending, RigidPartner, Support, SurfaceSlip,
-    Vibration, Viscoelasticity,
+    AdhesionEffect, ContactSearch, Effect, FiniteStrain, FrictionEffect, Gravity, MaterialLoss,
+    MirrorSymmetry, PartnerWaves, PenaltySprings, PlasticFlow, PlateBending, RigidPartner, Support,
+    SurfaceSlip, TangentialCoupling, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 use crate::models::reduced::effects::no_dent;
@@ -24,6 +24,8 @@ pub(super) fn support(
     Some(match effect.name() {
         Viscoelasticity::NAME => Support::Inherent { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
+        FrictionEffect::NAME => return FrictionEffect::of_model(scene, true),
+        TangentialCoupling::NAME => return FrictionEffect::of_model(scene, false),
         SurfaceSlip::NAME => Support::Computes { idle: "" },
         PlateBending::NAME => return PlateBending::of_model(scene),
         PartnerWaves::NAME => PartnerWaves::of_condensed(scene, estimate),

@@ -15,7 +15,7 @@ use fem_collision::{
     StaticContact, StepInstant, Stop,
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
-use fem_laws::radiation_damping;
+use fem_laws::{NormalSprings, radiation_damping};
 use fem_material::PronySeries;
 use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
@@ -328,6 +328,12 @@ impl Model for Condensed {
         let duration = slower.end * (1.0 + POST_CONTACT_FRACTION) * estimate.hertz.contact_time();
         let mut monitor = ExpectedProgress { monitor, begin: approach.first_touch(), duration };
         self.follow(approach, relaxations, n_steps, request, &mut monitor)
+    }
+
+    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
+        let record = collision.pressures.as_ref()?;
+        let (step, forces, profiles) = (record.time_step, &record.forces, &record.profiles);
+        Some(NormalSprings::of_pressures(collision.contact_time?, step, forces, profiles))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

@@ -21,9 +21,9 @@ use super::condensed::static_contact::of_elements;
 use super::mirrored::whole_or_half;
 use super::own_frame::OwnFrame;
 use crate::effects::{
-    AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow, PlateBending,
-    RateDependence, RigidPartner, Support, SurfaceSlip, Viscoelasticity, decide,
+    AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, FrictionEffect, Gravity,
+    HourglassControl, MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow,
+    PlateBending, RateDependence, RigidPartner, Support, SurfaceSlip, Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
@@ -451,6 +451,7 @@ fn support(
         MirrorSymmetry::NAME if bodies.is_none() => MirrorSymmetry::support_by_elements(scene),
         PlateBending::NAME => return PlateBending::of_model(scene),
         PartnerWaves::NAME | Gravity::NAME => Support::Inherent { idle: "" },
+        FrictionEffect::NAME => return FrictionEffect::of_model(scene, false),
         BulkViscosity::NAME => Support::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
         // Contact between deformed surfaces has it.

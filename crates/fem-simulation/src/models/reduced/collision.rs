@@ -120,6 +120,7 @@ impl Rows<'_> {
             energies,
             residual: Some(frame.gained(rate) + accounted + potential.unwrap_or(0.0)),
             vibration: [0.0; 2],
+            tangential: None,
         }
     }
 }

@@ -5,9 +5,9 @@ use fem_laws::laws::ContactLaw;
 use fem_material::engineering::number;
 
 use crate::effects::{
-    AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, MaterialLoss,
-    PartnerWaves, PlasticFlow, PlateBending, RigidPartner, Support, SurfaceSlip, Vibration,
-    Viscoelasticity,
+    AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, FrictionEffect, Gravity,
+    MaterialLoss, PartnerWaves, PlasticFlow, PlateBending, RigidPartner, Support, SurfaceSlip,
+    TangentialCoupling, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -35,6 +35,8 @@ pub(super) fn support(
         }
         SurfaceSlip::NAME if is_ting => Support::Computes { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
+        FrictionEffect::NAME => return FrictionEffect::of_model(scene, true),
+        TangentialCoupling::NAME => return FrictionEffect::of_model(scene, false),
         AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene, scene.approach_speed()) => {
             return None;
         }

@@ -15,7 +15,10 @@ use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, QuantityOfInterest, StaticContact, Stop,
 };
 use fem_laws::laws::ContactLaw;
-use fem_laws::{EndRule, FirstYield, Impact, LawError, LawInput, Pair, StaticHertz};
+use fem_laws::{
+    EndRule, FirstYield, Impact, LawError, LawInput, NormalSprings, Pair, PairRelaxation,
+    StaticHertz,
+};
 
 use crate::effects::{
     Effect, EffectDecision, EffectStatus, PlateBending, RateDependence, Support, decide,
@@ -261,6 +264,19 @@ impl Model for Reduced {
             }
             Err(error) => Collision::stopped(*approach, stop_of(&error)),
         }
+    }
+
+    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
+        let impact = self.impact(collision.approach.speed()).ok()?;
+        let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
+            ModelChoice::Ting { .. } => body.material().cloned(),
+            _ => Some(body.material()?.without_relaxation()),
+        });
+        let [lower, upper] = materials.each_ref().map(Option::as_ref);
+        let relaxation = PairRelaxation::new(lower, upper).ok()?;
+        let gravity = self.scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
+        let (pair, law, n_steps) = (&self.pair, self.law(), NormalSprings::N_STEPS);
+        NormalSprings::of_impact(&impact, pair, &relaxation, law, gravity, n_steps).ok()
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

@@ -1,0 +1,362 @@
+//! The model of an oblique impact: the collision is that of bodies that meet head-on, with friction on its contact
+//! ([`TangentialContact`]).
+//!
+//! The patch of the contact moves with v_t = (v₁ − ω₁R₁) − (v₂ + ω₂R₂) along x, where body 1 is the lower one. A tangential impulse J
+//! against it changes velocities by −J/m₁ and J/m₂ and both spins by JR/I, I = ⅖mR², so that the angular momentum of each body about
+//! the contact is kept. Sticking bodies have no tangential result.
+
+use fem_case::{Body, ModelChoice, Scene};
+use fem_collision::{
+    Account, Approach, Collision, Ending, EnergyLedger, HistoryRow, Monitor, OutputRequest,
+    StaticContact, Stop, TangentialErrors, TangentialResult, TangentialRow,
+};
+use fem_laws::{LawError, NormalSprings, TangentialContact, TangentialImpact, TangentialInstant};
+use fem_mesh::SphereMesh;
+
+use crate::effects::{Effect, FrictionEffect, Support};
+use crate::estimate::Estimate;
+use crate::models::method::{Model, ModelSetup};
+use crate::models::stepper::{RestartState, Stepper, Transformed};
+use crate::rejection::Rejection;
+
+/// Moment of inertia of a solid sphere over m R².
+const INERTIA: f64 = 0.4;
+/// Error of the displacement by finite size, whose second order is neglected, over itself: a series in a/R and the first order differ by
+/// that between a/R of 0.005 and 0.1.
+const SECOND_ORDER: f64 = 0.05;
+
+/// Two bodies that move across the axis or spin.
+#[derive(Clone, Debug)]
+struct ObliqueBodies {
+    scene: Scene,
+    contact: TangentialContact,
+    /// The contact of half-spaces instead of spheres, or of spheres instead of half-spaces: what finite size changes.
+    other_size: TangentialContact,
+    /// 1/m and R/I of each body; 0 of one that does not move or turn.
+    inverse_masses: [f64; 2],
+    levers: [f64; 2],
+}
+
+impl ObliqueBodies {
+    /// # Errors
+    /// A scene with an effect that is computed for bodies that meet head-on only.
+    fn of(scene: &Scene) -> Result<Self, Rejection> {
+        let friction = scene.friction();
+        if friction > 0.0 {
+            check(scene)?;
+        }
+        let reject = |error: LawError| Rejection::new("contact.friction", error.to_string());
+        let moves = |body: &Body| body.mass().filter(|_| !body.is_held());
+        let inverse_masses =
+            scene.bodies().each_ref().map(|body| moves(body).map_or(0.0, f64::recip));
+        let levers = scene
+            .bodies()
+            .each_ref()
+            .map(|body| moves(body).map_or(0.0, |mass| (INERTIA * mass * body.radius()).recip()));
+        let lever_sum: f64 = [0, 1]
+            .map(|k| {
+                inverse_masses[k]
+                    + if levers[k] > 0.0 { levers[k] * scene.bodies()[k].radius() } else { 0.0 }
+            })
+            .into_iter()
+            .sum();
+        let relaxes = matches!(scene.model(), ModelChoice::Ting { .. } | ModelChoice::Condensed(_));
+        let materials = scene.bodies().each_ref().map(|body| {
+            let material = body.material()?;
+            Some(if relaxes { material.clone() } else { material.without_relaxation() })
+        });
+        let bodies = materials.each_ref().map(Option::as_ref);
+        let half_spaces =
+            TangentialContact::new(bodies, lever_sum.recip(), friction).map_err(reject)?;
+        let elastic = materials.clone();
+        let sized = scene.clone().with_materials(elastic).tangential_size().map_err(reject)?;
+        let spheres = half_spaces.clone().with_finite_size(sized);
+        let has_size = match scene.model() {
+            ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => {
+                *finite_size
+            }
+            model => !matches!(model, ModelChoice::Law { .. }),
+        };
+        let [contact, other_size] = match has_size {
+            true => [spheres, half_spaces],
+            false => [half_spaces, spheres],
+        };
+        Ok(Self { scene: scene.clone(), contact, other_size, inverse_masses, levers })
+    }
+
+    /// Returns the velocities and spins of both bodies after a tangential impulse, N s.
+    fn after(&self, impulse: f64) -> ([f64; 2], [f64; 2]) {
+        let bodies = self.scene.bodies();
+        let [lower, upper] = self.inverse_masses;
+        let velocities = bodies.each_ref().map(Body::tangential_velocity);
+        let spins = [0, 1].map(|k| bodies[k].spin() + self.levers[k] * impulse);
+        ([velocities[0] - lower * impulse, velocities[1] + upper * impulse], spins)
+    }
+
+    /// Returns the velocity of each body's surface at the contact before the impact, m/s.
+    fn surfaces(&self) -> [f64; 2] {
+        let [lower, upper] = self.scene.bodies();
+        let turning = |body: &Body| body.diameter().map_or(0.0, |d| 0.5 * d * body.spin());
+        [lower.tangential_velocity() - turning(lower), upper.tangential_velocity() + turning(upper)]
+    }
+
+    /// Returns the kinetic energy of moving bodies across the axis and by spin after an impulse (N s), J.
+    fn kinetic(&self, impulse: f64) -> f64 {
+        let (velocities, spins) = self.after(impulse);
+        let of_body = |k: usize| {
+            let body = &self.scene.bodies()[k];
+            let mass = body.mass().filter(|_| self.inverse_masses[k] > 0.0)?;
+            let turning = INERTIA * (body.radius() * spins[k]).powi(2);
+            Some(0.5 * mass * (velocities[k] * velocities[k] + turning))
+        };
+        (0..2).filter_map(of_body).sum()
+    }
+
+    /// Returns the work of bodies that keep their velocity until this impulse (N s), J.
+    fn wall_work(&self, impulse: f64) -> f64 {
+        let [lower, upper] = self.surfaces();
+        let fixed = |k: usize| self.inverse_masses[k] == 0.0;
+        let of = |is_fixed: bool, velocity: f64| if is_fixed { impulse * velocity } else { 0.0 };
+        of(fixed(0), lower) - of(fixed(1), upper)
+    }
+
+    /// Returns a collision of the bodies as they meet head-on with its tangential half, on the springs of its contact.
+    fn applied(&self, collision: Collision, springs: Option<NormalSprings>) -> Collision {
+        let is_parted = collision.ending == Ending::Parted;
+        let Some(restitution) = collision.restitution.filter(|_| is_parted) else {
+            return Collision { pressures: None, ..collision };
+        };
+        let [lower, upper] = self.surfaces();
+        let before = lower - upper;
+        let is_free = self.scene.friction() == 0.0 || before == 0.0;
+        let springs = springs.filter(|_| !is_free);
+        if !is_free && springs.is_none() {
+            return Collision { pressures: None, ..collision };
+        }
+        let impact = springs.as_ref().map(|springs| self.contact.impact(springs, before));
+        let standing = TangentialInstant { velocity: before, ..TangentialInstant::default() };
+        let history = impact.as_ref().map_or(vec![standing], |impact| impact.history.clone());
+        let last = history.last().copied().unwrap_or(standing);
+        let impulse = impact.as_ref().map_or(0.0, |impact| impact.impulse);
+        let mass = self.normal_mass();
+        let normal = mass * (1.0 + restitution) * collision.approach.speed();
+        let (velocities, spins) = self.after(impulse);
+        let errors = match (&springs, &impact) {
+            (Some(springs), Some(impact)) => self.errors(&collision, springs, impact, before),
+            _ => TangentialErrors { discretisation: Some(0.0), model: Some(0.0), input: None },
+        };
+        let result = TangentialResult {
+            patch_velocity: [before, last.velocity],
+            impulse_ratio: if before < 0.0 { -impulse / normal } else { impulse / normal },
+            velocities,
+            spins,
+            errors,
+        };
+        let first_touch = collision.first_contact.unwrap_or_default();
+        let row = |row: HistoryRow| {
+            let at = instant_at(&history, row.time - first_touch);
+            let so_far = self.contact.mass() * (before - at.velocity);
+            let ratio = row.contact_radius.filter(|radius| *radius > 0.0);
+            HistoryRow {
+                energies: self.added(row.energies, &at, so_far),
+                tangential: Some(TangentialRow {
+                    force: at.force,
+                    patch_velocity: at.velocity,
+                    stick_ratio: ratio.map(|radius| (at.stick_radius / radius).min(1.0)),
+                }),
+                ..row
+            }
+        };
+        let own_residual = impact.as_ref().map_or(0.0, |impact| impact.residual);
+        let scale = 0.5 * mass * collision.approach.speed().powi(2)
+            + 0.5 * self.contact.mass() * before * before;
+        let of_residual = collision.residual_relative.map(|own| own.max(own_residual / scale));
+        let energies = self.added(collision.energies, &last, impulse);
+        let initial_energy = collision.initial_energy.map(|own| own + self.kinetic(0.0));
+        let whole = Collision {
+            tangential: Some(result),
+            pressures: None,
+            energies,
+            initial_energy,
+            residual_relative: of_residual,
+            ..collision
+        };
+        whole.map_samples(row, |fields| fields)
+    }
+
+    /// Returns m*, kg, of the motion along the axis.
+    fn normal_mass(&self) -> f64 {
+        self.inverse_masses.iter().sum::<f64>().recip()
+    }
+
+    /// Returns the energies with those of the tangential contact at an instant after an impulse, N s.
+    fn added(&self, energies: EnergyLedger, at: &TangentialInstant, impulse: f64) -> EnergyLedger {
+        let work = self.wall_work(impulse);
+        let energies = energies
+            .with(Account::Kinetic, self.kinetic(impulse))
+            .with(Account::Strain, at.strain_energy)
+            .with(Account::Friction, at.friction_work)
+            .with(Account::TangentialRelaxation, at.relaxation_loss);
+        if work == 0.0 { energies } else { energies.with(Account::WallWork, work) }
+    }
+
+    /// Returns the errors of the velocity of the rebounding patch, m/s.
+    fn errors(
+        &self,
+        collision: &Collision,
+        springs: &NormalSprings,
+        impact: &TangentialImpact,
+        before: f64,
+    ) -> TangentialErrors {
+        let change = |contact: &TangentialContact| {
+            (contact.impact(springs, before).velocity - impact.velocity).abs()
+        };
+        let share = if self.contact.has_finite_size() { SECOND_ORDER } else { 1.0 };
+        let of_size = share * change(&self.other_size);
+        let coupling = FrictionEffect::coupling(&self.scene);
+        let sliding_share = before.abs() * coupling.stiffness_ratio
+            / (self.scene.friction() * collision.approach.speed());
+        let model = (!coupling.is_unknown(sliding_share)).then_some(of_size);
+        let friction = self.scene.friction();
+        let input = self.scene.uncertain_inputs().iter().find(|it| it.key == "contact.friction");
+        let of_friction = |to: f64| self.contact.clone().with_friction(to).impact(springs, before);
+        TangentialErrors {
+            discretisation: Some(self.contact.discretisation_error(springs, impact, before)),
+            model,
+            input: input.map(|it| {
+                let [low, high] = [friction - it.uncertainty, friction + it.uncertainty];
+                0.5 * (of_friction(high).velocity - of_friction(low.max(0.0)).velocity).abs()
+            }),
+        }
+    }
+}
+
+/// Returns the tangential contact at a time after first touch (s), linear between the steps.
+fn instant_at(history: &[TangentialInstant], time: f64) -> TangentialInstant {
+    let after = history.partition_point(|instant| instant.time <= time);
+    let (Some(a), Some(b)) = (after.checked_sub(1).map(|k| &history[k]), history.get(after)) else {
+        return history[after.saturating_sub(1).min(history.len() - 1)];
+    };
+    let share = (time - a.time) / (b.time - a.time);
+    let of = |get: fn(&TangentialInstant) -> f64| get(a) + share * (get(b) - get(a));
+    TangentialInstant {
+        time,
+        force: of(|it| it.force),
+        velocity: of(|it| it.velocity),
+        stick_radius: of(|it| it.stick_radius),
+        strain_energy: of(|it| it.strain_energy),
+        friction_work: of(|it| it.friction_work),
+        relaxation_loss: of(|it| it.relaxation_loss),
+    }
+}
+
+/// Checks that friction is computed in a scene.
+fn check(scene: &Scene) -> Result<(), Rejection> {
+    let reject = |key: &str, message: &str, help: &str| {
+        Err(Rejection::new(key, format!("an oblique impact with friction {message}"))
+            .with_help(help))
+    };
+    let bodies = scene.bodies();
+    let law = match scene.model() {
+        ModelChoice::Fem => {
+            return reject("model", "is not computed by model fem", "use model condensed or ting");
+        }
+        ModelChoice::Law { law, .. } => Some(law),
+        _ => None,
+    };
+    if let Some(law) = law.filter(|law| law.family.strength_parameter().is_some()) {
+        let name = law.family.name();
+        let message = format!("is not computed beside plastic flow, which law {name} has");
+        return reject(
+            "model.law",
+            &message,
+            "use model condensed or ting, or contact.friction = 0",
+        );
+    }
+    if let Some(side) = bodies.iter().position(|body| body.plate().is_some()) {
+        let help = "write half_space = {} in place of the plate, or contact.friction = 0";
+        return reject(&format!("body.{side}.plate"), "is not computed on a plate", help);
+    }
+    if let Some(side) = bodies.iter().position(|body| body.own_mass().is_some()) {
+        let help = "remove the mass, or write contact.friction = 0";
+        let message = "needs a moment of inertia, which a mass of its own does not give";
+        return reject(&format!("body.{side}.sphere.mass"), message, help);
+    }
+    if scene.gravity().is_some_and(|gravity| gravity.bounces > 1) {
+        let help = "write stop.bounces = 1 and go on from the velocities and spins of its result";
+        return reject("stop.bounces", "is computed for one contact", help);
+    }
+    Ok(())
+}
+
+/// A model whose bodies move across the axis or spin.
+#[derive(Debug)]
+pub(super) struct Oblique {
+    model: Box<dyn Model>,
+    bodies: ObliqueBodies,
+}
+
+impl Oblique {
+    /// Adds the tangential half to the model of a scene, if it is oblique.
+    ///
+    /// # Errors
+    /// Friction beside an effect with which it is not computed.
+    pub fn around(model: Box<dyn Model>, scene: &Scene) -> Result<Box<dyn Model>, Rejection> {
+        match scene.is_oblique() {
+            true => Ok(Box::new(Self { model, bodies: ObliqueBodies::of(scene)? })),
+            false => Ok(model),
+        }
+    }
+
+    fn stepper(&self, approach: Approach, stepper: Box<dyn Stepper>) -> Box<dyn Stepper> {
+        let bodies = self.bodies.clone();
+        Box::new(Transformed { approach, stepper, transform: move |it| bodies.applied(it, None) })
+    }
+}
+
+impl Model for Oblique {
+    fn setup(&self) -> &ModelSetup {
+        self.model.setup()
+    }
+
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        self.model.support(effect, estimate)
+    }
+
+    fn collide(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
+        let request = OutputRequest { pressures: true, ..request.clone() };
+        let collision = self.model.collide(approach, &request, monitor);
+        let springs = self.model.normal_springs(&collision);
+        self.bodies.applied(collision, springs)
+    }
+
+    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
+        Some(self.stepper(*approach, self.model.start(approach, request)?))
+    }
+
+    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
+        Ok(self.stepper(state.approach, self.model.resume(state)?))
+    }
+
+    fn again(
+        &self,
+        before: &RestartState,
+        approach: &Approach,
+        request: &OutputRequest,
+    ) -> Result<Box<dyn Stepper>, Stop> {
+        Ok(self.stepper(*approach, self.model.again(before, approach, request)?))
+    }
+
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
+        self.model.static_contact(force)
+    }
+
+    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
+        self.model.meshes()
+    }
+}
