@@ -41,6 +41,7 @@ const RANGES: &[(&str, &[&str], Range)] = &[
     ("MeshTable", &["growth"], Range::GROWTH),
     ("ContactTable", &["penalty_factor"], Range::POSITIVE),
     ("ContactTable", &["work_of_adhesion"], Range::WORK_OF_ADHESION),
+    ("ContactTable", &["friction"], Range::NOT_NEGATIVE),
     ("TimeTable", &["step_factor"], Range::STEP_FACTOR),
     ("TimeTable", &["mass_scaling"], Range::MASS_SCALING),
     ("StopTable", &["bounces"], Range::BOUNCES),

@@ -129,13 +129,17 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
 fn not_computed(first: &str, inner: &str, key: &str, value: &str) -> Option<&'static str> {
     let value = value.trim_matches(['"', '\'']);
     Some(match key {
-        "friction" | "friction_coefficient"
-            if ["", "contact", "body", "material"].contains(&first) =>
-        {
-            "contact is frictionless here, since friction is not computed: remove the key"
+        "friction" | "friction_coefficient" | "coefficient_of_friction" | "mu" => {
+            "the coefficient of friction is that of the pair: write [contact] friction = 0.1"
         }
-        "spin" | "rotation" | "angular_velocity" | "omega" => {
-            "the collision is head-on and without spin: remove the key"
+        "rolling_friction" | "rolling_resistance" => {
+            "rolling resistance is not computed, since a collision is over before a ball has rolled: remove the key"
+        }
+        "rotation" | "angular_velocity" | "omega" | "spin" => {
+            "the key of a [[body]] is spin = \"10 rad/s\", right-handed about x × y"
+        }
+        "angle" | "incidence" | "angle_of_incidence" if first == "body" => {
+            "the key is impact_angle = \"30 deg\", of the velocity against the axis"
         }
         "restitution" | "coefficient_of_restitution" | "cor" | "e"
             if ["", "body", "contact", "material", "model"].contains(&first) =>

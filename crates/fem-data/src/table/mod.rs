@@ -39,4 +39,4 @@ pub use restitutions::{
     ACCEPTED_BOUNDS, MAX_RESTITUTION, MAX_UNCERTAINTY, Point, Restitutions, UncertaintyError,
     UnevenUncertainties,
 };
-pub use sweep_table::{COLUMNS, STATUS, UNCERTAINTIES, energy_column, rows_below};
+pub use sweep_table::{COLUMNS, STATUS, TANGENTIAL, UNCERTAINTIES, energy_column, rows_below};

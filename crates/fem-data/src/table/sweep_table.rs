@@ -27,6 +27,14 @@ const FIRST: [&str; 14] = [
     "hertz_max_contact_radius_m",
     "hertz_peak_pressure_pa",
 ];
+/// Quantities of oblique impacts.
+pub const TANGENTIAL: [&str; 5] = [
+    "tangential_restitution",
+    "contact_patch_rebound_deg",
+    "impulse_ratio",
+    "psi_before",
+    "psi_after",
+];
 /// Columns after the accounts of energy.
 const LAST: [&str; 17] = [
     "energy_residual_relative",
@@ -70,7 +78,13 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     };
     let status = QuantityOfInterest::ALL.into_iter().map(|it| format!("{}{STATUS}", it.key()));
     let uncertainties = QuantityOfInterest::ALL.into_iter().flat_map(parts);
-    own(&FIRST).chain(status).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
+    let across = own(&TANGENTIAL).chain(
+        TANGENTIAL[..3]
+            .iter()
+            .flat_map(|key| UNCERTAINTIES.map(|(start, _)| format!("{start}{key}"))),
+    );
+    let all = own(&FIRST).chain(status).chain(uncertainties).chain(energies);
+    all.chain(own(&LAST)).chain(across).collect()
 });
 
 /// Returns the column of a key of the summary's energies.

@@ -34,6 +34,8 @@ pub struct NormalSprings {
     pub(super) lengths: Vec<f64>,
     /// Line loads, N/m, of all springs at one instant after the other.
     loads: Vec<f64>,
+    /// The springs of a coarser reading, if the loads come from a mesh.
+    coarse: Option<Box<NormalSprings>>,
 }
 
 impl NormalSprings {
@@ -84,10 +86,29 @@ impl NormalSprings {
         forces: &[f64],
         profiles: &[Vec<(f64, f64)>],
     ) -> Self {
+        let of = |profiles: &[Vec<(f64, f64)>], n_steps: usize| {
+            Self::of_mesh(contact_time, time_step, (forces, profiles), n_steps)
+        };
+        let every_second = |profile: &Vec<(f64, f64)>| {
+            let last = profile.len().saturating_sub(1);
+            let kept = profile.iter().enumerate().filter(|(k, _)| k % 2 == 0 || *k == last);
+            kept.map(|(_, pressure)| *pressure).collect()
+        };
+        let halved: Vec<_> = profiles.iter().map(every_second).collect();
+        let coarse = Some(Box::new(of(&halved, Self::N_STEPS / 2)));
+        Self { coarse, ..of(profiles, Self::N_STEPS) }
+    }
+
+    fn of_mesh(
+        contact_time: f64,
+        time_step: f64,
+        (forces, profiles): (&[f64], &[Vec<(f64, f64)>]),
+        n_steps: usize,
+    ) -> Self {
         let radii: Vec<_> =
             profiles.iter().map(|profile| profile.last().map_or(0.0, |(r, _)| *r)).collect();
         let last = forces.len().min(profiles.len()).saturating_sub(1);
-        let own_step = contact_time / (Self::N_STEPS as f64 + 0.5);
+        let own_step = contact_time / (n_steps as f64 + 0.5);
         let place = |step: usize| {
             let at = (step as f64 * own_step / time_step).min(last as f64);
             let before = (at as usize).min(last.saturating_sub(1));
@@ -98,7 +119,7 @@ impl NormalSprings {
             values[before] + share * (values[after] - values[before])
         };
         let of = |values: &[f64]| -> Vec<f64> {
-            (0..Self::N_STEPS + 2).map(|step| between(values, place(step))).collect()
+            (0..n_steps + 2).map(|step| between(values, place(step))).collect()
         };
         let mut known: [(usize, Vec<f64>); 2] =
             [(usize::MAX, Vec::new()), (usize::MAX, Vec::new())];
@@ -148,7 +169,7 @@ impl NormalSprings {
                 false => loads[0] = force / lengths[0],
             }
         }
-        Self { time_step, places, lengths, loads }
+        Self { time_step, places, lengths, loads, coarse: None }
     }
 
     /// Returns the sum of force times step, N s.
@@ -179,13 +200,18 @@ impl NormalSprings {
         self.at(step).iter().zip(&self.lengths).map(|(load, length)| load * length).sum()
     }
 
-    /// Returns every second spring at every second step, from which the error of the discretisation is found.
+    /// Returns every second spring at every second step, or the springs of every second pressure of a mesh, from which the error of
+    /// the discretisation is found.
     pub(super) fn coarser(&self) -> Self {
+        if let Some(coarse) = &self.coarse {
+            return *coarse.clone();
+        }
         let places: Vec<_> = self.places.iter().copied().step_by(2).collect();
         let steps = (0..=self.n_steps()).step_by(2);
         let loads = steps.flat_map(|step| self.at(step).iter().copied().step_by(2)).collect();
         let lengths = lengths_of(&places);
-        Self { time_step: 2.0 * self.time_step, lengths, places, loads }.scaled_to(self.impulse())
+        let coarse = Self { time_step: 2.0 * self.time_step, lengths, places, loads, coarse: None };
+        coarse.scaled_to(self.impulse())
     }
 }
 

@@ -317,3 +317,38 @@ fn finite_size_across_the_axis_is_that_of_the_series() {
         assert!((found - expected).abs() < 0.03, "{ratio} {found}");
     }
 }
+
+/// 10,000 random impacts: friction takes energy and gives none, and nothing gains any.
+#[test]
+fn friction_never_adds_energy() {
+    let mut state = 20_261_128_u64;
+    let mut random = |from: f64, to: f64| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from + (to - from) * ((state >> 11) as f64 / (1_u64 << 53) as f64)
+    };
+    for k in 0..40 {
+        let nu = random(-0.2, 0.49);
+        let terms: Vec<(f64, f64)> =
+            (0..k % 4).map(|_| (random(0.05, 0.3), 10f64.powf(random(-8.0, -3.0)))).collect();
+        let acts_on = if k % 2 == 0 { ActsOn::All } else { ActsOn::Shear };
+        let like = Like::new(&material(nu, &terms, acts_on), 60, Some(random(0.8, 2.0)));
+        for _ in 0..250 {
+            let (friction, psi) = (10f64.powf(random(-3.0, 0.5)), random(-12.0, 12.0));
+            let contact = like.contact.clone().with_friction(friction);
+            let before = psi * friction / like.ratio;
+            let impact = contact.impact(&like.normal, before);
+            let energy = |velocity: f64| 0.5 * contact.mass() * velocity * velocity;
+            let rounding = 1e-12 * energy(before);
+            assert!(impact.friction_work >= -rounding, "{k} {psi} {friction}");
+            assert!(impact.relaxation_loss >= -rounding, "{k} {psi} {friction}");
+            assert!(energy(impact.velocity) <= energy(before) + rounding, "{k} {psi} {friction}");
+            assert!(
+                impact.residual <= rounding,
+                "{k} {psi} {} of {}",
+                impact.residual,
+                energy(before)
+            );
+        }
+    }
+}

@@ -271,6 +271,28 @@ pub fn normalised_chart(results: &[StoredResult]) -> Option<Chart> {
     Some(with_hertz(chart, hertz_points, "Hertz".to_string()))
 }
 
+/// Returns the chart of both contact forces, and the share of the contact that sticks, over time; `None` of a head-on impact.
+pub fn oblique_chart(result: &StoredResult) -> Option<Chart> {
+    let time = TimeAxis::of(std::slice::from_ref(result), None);
+    let column = |name: &str| time.column(result, name);
+    let (normal, across) = (column("contact_force_n"), column("tangential_force_n"));
+    let sticking = column("stick_radius_over_contact_radius");
+    let (from, to) = range_with_zero(normal.iter().chain(&across));
+    if across.iter().all(|point| !(point.1.abs() > 0.0)) {
+        return None;
+    }
+    let y = QuantityAxis::linear("Contact force F", "N", to.max(-from));
+    let largest = range_with_zero(&normal).1;
+    let known = sticking.into_iter().filter(|point| point.1.is_finite());
+    let sticking: Vec<_> = known.map(|(time, share)| (time, share * largest)).collect();
+    let line = |points: &[(f64, f64)]| time.axis.points(&y, points);
+    let chart = chart_axes(&time.axis, &y)
+        .with(Curve::line("normal", line(&normal)).like_curve(0))
+        .with(Curve::line("tangential", line(&across)).like_curve(1));
+    let label = "stick radius / contact radius, of the largest force";
+    Some(chart.with(Curve::dashed(label, line(&sticking)).coloured(GREY)))
+}
+
 /// Returns the chart of the energies of a result over time; `None` if its history has none.
 pub fn energy_chart(result: &StoredResult) -> Option<Chart> {
     let hertz = HertzCurves::of(result);

@@ -34,6 +34,7 @@ pub use contours::{contour_of_dent, contour_of_result, contours_at_peak};
 pub use effects::is_numerical;
 pub use history_charts::{
     Quantity, bounce_charts, energy_chart, history_chart, loop_chart, normalised_chart,
+    oblique_chart,
 };
 pub use pressure_chart::pressure_chart;
 pub use stored_result::{Columns, ReportError, StoredResult};
@@ -91,6 +92,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         history_chart(of_one, Quantity::Approach),
         history_chart(of_one, Quantity::Radius),
         energy_chart(result),
+        oblique_chart(result),
     ];
     let charts = charts.into_iter().chain(bounce_charts(result).into_iter().map(Some));
     let [on, numerical, lacking, off] = effects::effects(result);

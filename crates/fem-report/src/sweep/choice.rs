@@ -60,6 +60,10 @@ impl FigureChoice {
                 CELSIUS.iter().any(|unit| text.ends_with(unit))
             });
             let unit = match unit {
+                Some("rad") => {
+                    values.iter_mut().for_each(|value| *value = value.to_degrees());
+                    Some("°")
+                }
                 Some("K") if is_celsius => {
                     values.iter_mut().for_each(|value| *value -= ZERO_CELSIUS);
                     Some("°C")

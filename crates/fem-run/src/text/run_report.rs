@@ -5,6 +5,7 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::{EffectDecision, NeglectError};
+use fem::fit::cradle::Measured;
 use fem::results::{BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
 use fem_case::engineering::{Unit, number, show};
@@ -18,7 +19,7 @@ use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
 use super::standard_output::{one_line, shown};
-use super::tables::{headed, table};
+use super::tables::{headed, show_measured, table};
 
 const NONE: &str = "-";
 const UNKNOWN: &str = "?";
@@ -88,6 +89,9 @@ fn short(summary: &Summary) -> String {
     for (name, text) in flow(summary, summary.dent.iter().flatten().max_by(deepest).into_iter()) {
         row(name, text);
     }
+    if let Some(text) = across(summary) {
+        row("across", text);
+    }
     let considered = summary.models_considered.as_deref().unwrap_or_default();
     let decisions = summary.effects.iter().map(|effect| &effect.decision);
     format!("\n{deficit}{}", effects_in_short(rows, decisions, &summary.case, considered))
@@ -124,6 +128,29 @@ pub fn effects_in_short<'a>(
     let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
     rows + &off
+}
+
+/// Returns the tangential quantities of an oblique impact with their error bars.
+fn across(summary: &Summary) -> Option<String> {
+    let bars = summary.uncertainty.tangential?;
+    let it = &summary.tangential;
+    let shown = |value: f64, parts: &Parts, unit: &str| {
+        let bar = parts.sum();
+        let text = match bar {
+            Some(bar) => show_measured(Measured { value, uncertainty: bar }, unit),
+            None => format!("{} ± ? {unit}", number(value, 4)),
+        };
+        text.trim_end().to_string()
+    };
+    let quantities = [
+        ("e_t", it.tangential_restitution, bars.tangential_restitution, ""),
+        ("patch", it.contact_patch_rebound_deg, bars.contact_patch_rebound_deg, "°"),
+        ("impulse ratio", it.impulse_ratio, bars.impulse_ratio, ""),
+    ];
+    let text = quantities.iter().filter_map(|(name, value, parts, unit)| {
+        Some(format!("{name} {}", shown((*value)?, parts, unit)))
+    });
+    Some(text.collect::<Vec<_>>().join(", "))
 }
 
 /// Returns dents of bodies that flowed, and where the energy went.
@@ -199,6 +226,9 @@ fn details(summary: &Summary) -> String {
         text += "\n";
     }
     let _ = writeln!(text, "{}", bodies(&summary.bodies));
+    if let Some(across) = across(summary) {
+        let _ = writeln!(text, "across  {across}\n");
+    }
     text += &balances(summary);
     if let Some(considered) = &summary.models_considered {
         let _ = write!(text, "\nModels and their expected errors\n{}", models(considered));

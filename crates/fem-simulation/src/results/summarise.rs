@@ -75,7 +75,7 @@ impl Summary {
                     uncertainty.of(QuantityOfInterest::Restitution),
                 ),
             },
-            tangential: tangential::quantities(collision),
+            tangential: tangential::quantities(simulation.case().scene(), collision),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),

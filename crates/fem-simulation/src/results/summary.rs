@@ -171,6 +171,10 @@ pub struct Tangential {
     pub contact_patch_rebound_deg: Option<f64>,
     /// Tangential over normal impulse; positive against the velocity of the patch before.
     pub impulse_ratio: Option<f64>,
+    /// ψ₁ = (k_t/k_n) v_t/(μ v_n) of the patch before the collision, with instantaneous moduli; `None` without friction.
+    pub psi_before: Option<f64>,
+    /// ψ₂, the same of the patch after it, with the speed of approach.
+    pub psi_after: Option<f64>,
 }
 
 /// Error bars of the tangential quantities, written beside those of the others in an oblique impact.

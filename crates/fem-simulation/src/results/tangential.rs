@@ -3,20 +3,28 @@
 //! The velocity of the rebounding patch has the errors of its own computation ([`fem_collision::TangentialErrors`]) and that of the
 //! restitution e, since the tangential impulse of surfaces that slide grows as 1 + e; of surfaces that stick it changes less.
 
+use fem_case::Scene;
 use fem_collision::{Collision, TangentialResult};
 
 use super::summary::{Parts, Tangential, TangentialParts};
+use crate::effects::FrictionEffect;
 
 /// Returns the quantities; none of a head-on impact, or of bodies that stay together.
-pub(super) fn quantities(collision: &Collision) -> Tangential {
+pub(super) fn quantities(scene: &Scene, collision: &Collision) -> Tangential {
     let rebound = collision.tangential.as_ref().zip(collision.restitution);
     let Some((result, restitution)) = rebound else { return Tangential::default() };
     let [before, after] = result.patch_velocity;
-    let away = restitution * collision.approach.speed();
+    let speed = collision.approach.speed();
+    let away = restitution * speed;
+    let friction = scene.friction();
+    let unit = FrictionEffect::coupling(scene).stiffness_ratio * sign(result) / (friction * speed);
+    let psi = |velocity: f64| (friction > 0.0).then_some(unit * velocity);
     Tangential {
         tangential_restitution: (before != 0.0).then(|| after / before),
         contact_patch_rebound_deg: Some((after * sign(result)).atan2(away).to_degrees()),
         impulse_ratio: Some(result.impulse_ratio),
+        psi_before: psi(before),
+        psi_after: psi(after),
     }
 }
 

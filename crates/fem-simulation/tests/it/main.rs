@@ -25,6 +25,7 @@ mod models;
 mod neglect_error;
 mod no_separation;
 mod numerics;
+mod oblique;
 mod paper;
 mod partly_finite;
 mod partner_waves;

@@ -17,7 +17,7 @@ const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"
 type Row = (&'static str, &'static str, &'static [&'static str], &'static [[&'static str; 2]]);
 
 const RELAXES: &str = "viscoelasticity";
-const ROWS: [Row; 18] = [
+const ROWS: [Row; 20] = [
     ("glass_0.5ms", "fem", &[RELAXES], &[["mirror symmetry", "differ"]]),
     ("glass_0.5ms_14um", "fem", &[], &[]),
     ("glass_0.5ms_elastic", "fem", &[], &[]),
@@ -91,6 +91,13 @@ const ROWS: [Row; 18] = [
         &[[RELAXES, "3 of 10 terms remain"], [RELAXES, "2 faster and 5 slower than the contact"]],
     ),
     // At 30 °C the times are 10^(−20.7 · 10/101.1) = 0.9 % of those at 20 °C: one of 2.8 ms takes 25 µs.
+    (
+        "oblique_glass",
+        "ting",
+        &[RELAXES, "finite size", "friction", "partner waves"],
+        &[["friction", "coefficient of friction = 0.15"], ["tangential coupling", "β = 0"]],
+    ),
+    ("pool_balls", "ting", &["friction"], &[]),
     ("pvb_ball", "ting", &[RELAXES], &[[RELAXES, "4 of 11 terms remain"]]),
 ];
 

@@ -1,12 +1,19 @@
 //! The columns of `sweep.csv` that come from a member's summary, and their values.
 
 use fem_collision::{Account, ShownIn, energy_key};
-use fem_data::table::{COLUMNS, STATUS, UNCERTAINTIES, energy_column};
+use fem_data::table::{COLUMNS, STATUS, TANGENTIAL, UNCERTAINTIES, energy_column};
 use serde_json::Value;
 
 /// Beginnings of columns that a table has only if a member has a value there.
-const OPTIONAL: [&str; 5] =
-    ["uncertainty_input_", "adhesion_", "plate_", "energy_locked_in_j", "dent_"];
+const OPTIONAL: [&str; 7] = [
+    "uncertainty_input_",
+    "adhesion_",
+    "plate_",
+    "energy_locked_in_j",
+    "energy_friction_j",
+    "energy_tangential_relaxation_j",
+    "dent_",
+];
 
 /// The columns of a table of summaries: all except the optional ones that no summary has.
 #[derive(Clone, Debug)]
@@ -19,7 +26,10 @@ impl Default for Columns {
     fn default() -> Self {
         let energies = Account::all().filter(|account| account.shown() == ShownIn::WhereFilled);
         let energies = energies.map(|account| energy_column(&energy_key(account)));
-        let is_optional = |column: &&String| OPTIONAL.iter().any(|start| column.starts_with(start));
+        let is_optional = |column: &&String| {
+            OPTIONAL.iter().any(|start| column.starts_with(start))
+                || TANGENTIAL.iter().any(|end| column.ends_with(end))
+        };
         Self { absent: energies.chain(COLUMNS.iter().filter(is_optional).cloned()).collect() }
     }
 }
