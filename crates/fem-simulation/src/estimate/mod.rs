@@ -93,6 +93,15 @@ impl Estimate {
         Self::with_known(scene, speed, self.impacts.clone())
     }
 
+    /// Returns a variant of the scene in its regime at the speed of this estimate.
+    ///
+    /// # Errors
+    /// Those of [`Estimate::of`].
+    pub(crate) fn regime_of(&self, scene: Scene) -> Result<Regime, LawError> {
+        let estimate = self.of_variant(&scene, self.hertz.approach_speed())?;
+        Ok(Regime { scene, estimate })
+    }
+
     fn with_known(scene: &Scene, speed: f64, impacts: KnownImpacts) -> Result<Self, LawError> {
         let hertz = HertzImpact::new(&pair_at(scene, 0.0, MIN_MODULUS)?, speed)?;
         let relaxed_impact = relaxed_to_middle(scene, hertz);

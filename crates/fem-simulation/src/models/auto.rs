@@ -14,6 +14,7 @@ use super::method_of;
 use crate::effects::{self, EFFECTS, Effect, PlasticFlow, Support};
 use crate::estimate::{Estimate, Regime, viscous_flow};
 use crate::models::method::{Method, Model, SharedModels};
+use crate::plan::Plan;
 use crate::quantity_errors::{QuantityErrors, tolerance_of};
 use crate::rejection::Rejection;
 
@@ -35,9 +36,14 @@ impl Method for AutoMethod {
         None
     }
 
-    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+    fn resolve(
+        &self,
+        regime: &Regime,
+        plan: Option<&Plan>,
+        file: CaseFile,
+    ) -> Result<CaseFile, Rejection> {
         let chosen = with_chosen_model(regime)?;
-        method_of(&chosen.scene).resolve(&chosen, file)
+        method_of(&chosen.scene).resolve(&chosen, plan, file)
     }
 }
 

@@ -9,6 +9,8 @@ pub(crate) mod mesh_source;
 pub(crate) mod pair_cache;
 pub(crate) mod penalty_compliance;
 
+use std::borrow::Cow;
+
 use fem_case::engineering::number;
 use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, SnapshotsValue, StartTable,
@@ -129,6 +131,17 @@ impl Plan {
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
     pub fn of(scene: &Scene) -> Result<Self, Rejection> {
         Self::in_regime(&Regime::of(scene.clone())?)
+    }
+
+    /// Returns a plan if it is known, or else that of a scene in its regime.
+    ///
+    /// # Errors
+    /// Those of [`Plan::in_regime`].
+    pub(crate) fn known<'a>(
+        known: Option<&'a Self>,
+        regime: &Regime,
+    ) -> Result<Cow<'a, Self>, Rejection> {
+        known.map_or_else(|| Self::in_regime(regime).map(Cow::Owned), |it| Ok(Cow::Borrowed(it)))
     }
 
     /// Returns the plan of a scene in its regime.
