@@ -14,8 +14,8 @@ use crate::simulation::Simulation;
 
 /// Larger ratios of element sizes are not advised: the error there is not known.
 const MAX_RATIO: f64 = 100.0;
-/// Elements across the contact below which a mesh is reported as too coarse before the run.
-const MIN_ACROSS: f64 = 3.0;
+/// Elements across the contact below which a mesh does not resolve it.
+pub const MIN_ACROSS: f64 = 3.0;
 /// Characters of a warning that is read in one look.
 const MAX_LENGTH: usize = 230;
 /// Elements across the contact that are advised: most estimates are then below 1 %.

@@ -36,7 +36,7 @@ use crate::plan::mesh_offset::{finer_body, is_generated, staggered};
 use crate::rejection::Rejection;
 
 /// Half-width of the block of equal elements over the contact radius.
-const REFINED_OVER_CONTACT: f64 = 1.2;
+pub(crate) const REFINED_OVER_CONTACT: f64 = 1.2;
 /// Half-width of the candidate region over the contact radius.
 const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 /// Default penalty stiffness per area times element size, over E*. In the glass pair with eight elements across the
