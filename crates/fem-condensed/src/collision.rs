@@ -8,6 +8,7 @@ use crate::error::CondensedError;
 use crate::motion::ImpactMotion;
 use crate::pair::CondensedPair;
 use crate::run::ImpactRun;
+use crate::run::instants::RunTrace;
 use crate::settings::ContactModel;
 use crate::settings::Damping;
 
@@ -86,24 +87,12 @@ impl CondensedPair {
             finished = run(n_all)?;
         }
         let mut collision = finished.collision;
-        if request.snapshots != SnapshotRequest::none() {
+        if request.snapshots != SnapshotRequest::none() || !request.probes.is_empty() {
             monitor.enter(Phase::Fields);
-            let (trace, ending) = (&finished.trace, &collision.ending);
-            let request = &request.snapshots;
-            match self.snapshots(frame, damping, time_step, trace, ending, request) {
-                Ok((snapshots, missing)) => {
-                    collision.snapshots = snapshots;
-                    collision.warnings.splice(0..0, missing);
-                }
-                Err(error) => collision.ending = Ending::Stopped(error.into()),
-            }
-        }
-        if !request.probes.is_empty() {
-            monitor.enter(Phase::Fields);
-            let last = finished.trace.len().saturating_sub(1);
-            match self.probed(frame, damping, time_step, last, &request.probes) {
-                Ok(probes) => collision.probes = probes,
-                Err(error) => collision.ending = Ending::Stopped(error.into()),
+            let trace = &finished.trace;
+            let fields = self.add_fields(&mut collision, frame, damping, time_step, trace, request);
+            if let Err(error) = fields {
+                collision.ending = Ending::Stopped(error.into());
             }
         }
         let share = collision
@@ -117,6 +106,30 @@ impl CondensedPair {
             ));
         }
         Ok(collision)
+    }
+
+    /// Adds the requested snapshots and probes to a finished collision.
+    fn add_fields(
+        &self,
+        collision: &mut Collision,
+        frame: &Frame,
+        damping: Damping<'_>,
+        time_step: f64,
+        trace: &[RunTrace],
+        request: &OutputRequest,
+    ) -> Result<(), CondensedError> {
+        if request.snapshots != SnapshotRequest::none() {
+            let (ending, asked) = (&collision.ending, &request.snapshots);
+            let (snapshots, missing) =
+                self.snapshots(frame, damping, time_step, trace, ending, asked)?;
+            collision.snapshots = snapshots;
+            collision.warnings.splice(0..0, missing);
+        }
+        if !request.probes.is_empty() {
+            let last = trace.len().saturating_sub(1);
+            collision.probes = self.probed(frame, damping, time_step, last, &request.probes)?;
+        }
+        Ok(())
     }
 
     /// Returns approach and forces at a time (s) after first touch, at the nearest of [`Self::N_STEPS`].

@@ -21,6 +21,17 @@ use crate::scene::{Limits, MeshSettings, Scene, UncertainInput, defaults};
 use crate::schema::CaseFile;
 use crate::source::document::Document;
 
+/// The number at a key of a table of the case.
+macro_rules! number {
+    ($check:ident, $table:ident.$key:ident, $allowed:expr) => {
+        $check.optional(
+            concat!(stringify!($table), ".", stringify!($key)),
+            $table.$key.as_ref(),
+            $allowed,
+        )?
+    };
+}
+
 /// Returns the scene of a case, or its first fault.
 ///
 /// Relative mesh files are looked for in `folder`.
@@ -40,18 +51,8 @@ pub(crate) fn validate(
     let time = file.time.clone().unwrap_or_default();
     let output = file.output.clone().unwrap_or_default();
     let limits = file.limits.clone().unwrap_or_default();
-    // The number at a key of one of these tables.
-    macro_rules! number {
-        ($table:ident.$key:ident, $allowed:expr) => {
-            check.optional(
-                concat!(stringify!($table), ".", stringify!($key)),
-                $table.$key.as_ref(),
-                $allowed,
-            )?
-        };
-    }
     let bodies = check.bodies(file)?;
-    let gap = number!(start.gap, Range::NOT_NEGATIVE);
+    let gap = number!(check, start.gap, Range::NOT_NEGATIVE);
     let gravity = check.gravity(file, &bodies, gap.unwrap_or(defaults::GAP))?;
     let probes = check.probes(&output.probe, &bodies)?;
     let scene = Scene {
@@ -61,17 +62,17 @@ pub(crate) fn validate(
         gap,
         gravity,
         mesh: MeshSettings {
-            contact_element_size: number!(mesh.contact_element_size, Range::POSITIVE),
-            refined_radius: number!(mesh.refined_radius, Range::POSITIVE),
-            growth: number!(mesh.growth, Range::GROWTH),
-            far_radius: number!(mesh.far_radius, Range::POSITIVE),
+            contact_element_size: number!(check, mesh.contact_element_size, Range::POSITIVE),
+            refined_radius: number!(check, mesh.refined_radius, Range::POSITIVE),
+            growth: number!(check, mesh.growth, Range::GROWTH),
+            far_radius: number!(check, mesh.far_radius, Range::POSITIVE),
             staggered: mesh.staggered,
         },
         contact_method: contact.method,
-        penalty_factor: number!(contact.penalty_factor, Range::POSITIVE),
-        work_of_adhesion: number!(contact.work_of_adhesion, Range::WORK_OF_ADHESION),
-        step_factor: number!(time.step_factor, Range::STEP_FACTOR),
-        mass_scaling: number!(time.mass_scaling, Range::MASS_SCALING),
+        penalty_factor: number!(check, contact.penalty_factor, Range::POSITIVE),
+        work_of_adhesion: number!(check, contact.work_of_adhesion, Range::WORK_OF_ADHESION),
+        step_factor: number!(check, time.step_factor, Range::STEP_FACTOR),
+        mass_scaling: number!(check, time.mass_scaling, Range::MASS_SCALING),
         snapshots: output.snapshots.as_ref().map(|value| check.snapshots(value)).transpose()?,
         probes,
         fields: output.fields,
@@ -80,10 +81,10 @@ pub(crate) fn validate(
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),
         limits: Limits {
-            elements: number!(limits.elements, Range::COUNT).map(|count| count as u64),
-            element_updates: number!(limits.element_updates, Range::COUNT)
+            elements: number!(check, limits.elements, Range::COUNT).map(|count| count as u64),
+            element_updates: number!(check, limits.element_updates, Range::COUNT)
                 .map(|count| count as u64),
-            memory: number!(limits.memory, Range::COUNT).map(|bytes| bytes as u64),
+            memory: number!(check, limits.memory, Range::COUNT).map(|bytes| bytes as u64),
         },
         refinement: 1.0,
         inputs: Vec::new(),
