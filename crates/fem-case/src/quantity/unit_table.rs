@@ -159,7 +159,7 @@ pub(crate) fn find_unit(symbol: &str) -> Option<UnitScale> {
 
 /// Returns a regular expression of all symbols whose dimension (metre, kilogram, second, byte) satisfies a condition; empty
 /// if there are none.
-#[cfg(feature = "schema")]
+#[cfg(all(test, feature = "schema"))]
 pub(crate) fn symbols(is_one: impl Fn([i32; 4]) -> bool) -> String {
     let of = |prefixable: bool| {
         let units = UNITS.iter().filter(|unit| is_one(unit.scale.dimension));

@@ -1,6 +1,8 @@
 //! `[model]` as written: the model of the collision and its keys.
 
-use fem_laws::{EndRule, KeyRange, LawFamily};
+#[cfg(all(test, feature = "schema"))]
+use fem_laws::KeyRange;
+use fem_laws::{EndRule, LawFamily};
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{
@@ -166,7 +168,7 @@ macro_rules! law_tables {
         $(
             $(#[$doc])*
             #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-            #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+            #[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
             #[serde(deny_unknown_fields, expecting = $example)]
             pub struct $table {
                 $(
@@ -191,7 +193,7 @@ macro_rules! law_tables {
 
         /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand next to it.
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
         #[serde(
             deny_unknown_fields,
             expecting = "a table such as { kuwabara_kono = { a = \"1e-6 s\" } }"
@@ -217,10 +219,11 @@ macro_rules! law_tables {
             /// All number keys of all laws.
             pub(crate) const KEYS: &'static [LawKey] = &[$($(LawKey {
                 family: LawFamily::$variant,
-                #[cfg(feature = "schema")]
+                #[cfg(all(test, feature = "schema"))]
                 table: stringify!($table),
                 key: stringify!($key),
                 kind: <$kind>::INFO,
+                #[cfg(all(test, feature = "schema"))]
                 range: KeyRange::$range,
             },)*)+];
 
@@ -262,11 +265,11 @@ fem_laws::contact_laws!(law_tables);
 pub(crate) struct LawKey {
     pub family: LawFamily,
     /// The type of the law's table.
-    #[cfg(feature = "schema")]
+    #[cfg(all(test, feature = "schema"))]
     pub table: &'static str,
     pub key: &'static str,
     pub kind: QuantityInfo,
-    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema reads it"))]
+    #[cfg(all(test, feature = "schema"))]
     pub range: KeyRange,
 }
 
