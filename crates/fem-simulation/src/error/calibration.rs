@@ -14,7 +14,7 @@ use crate::plan::element_size::MACH_OF_SLOW_IMPACTS;
 pub(crate) struct Calibration {
     /// Name of this row of constants in the table of the claim.
     pub name: &'static str,
-    /// What the errors are measured against: the sum of the distances, of which all but the first may be unknown.
+    /// The reference runs whose distances are added; all but the first may be unknown.
     pub against: &'static [Reference],
     /// Safety factors on the estimated errors; 0 where the reference run says nothing of the error.
     pub safety_factor: [f64; 6],

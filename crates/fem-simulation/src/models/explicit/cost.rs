@@ -16,7 +16,7 @@ use crate::rejection::Rejection;
 
 /// Seconds per element update on one core of 3 GHz, from docs/effects.md. Other machines differ by a factor.
 struct UpdateSeconds {
-    /// Without relaxation.
+    /// Seconds without relaxation.
     plain: f64,
     /// Additional seconds per Prony term.
     of_term: f64,
@@ -24,7 +24,7 @@ struct UpdateSeconds {
 
 impl UpdateSeconds {
     const AT_SMALL_STRAIN: Self = Self { plain: 6e-9, of_term: 1e-9 };
-    /// With the bounds of the time step.
+    /// Includes the bounds of the time step.
     const AT_FINITE_STRAIN: Self = Self { plain: 20e-9, of_term: 7e-9 };
 
     fn of(&self, n_terms: f64) -> f64 {
