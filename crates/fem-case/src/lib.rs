@@ -88,7 +88,7 @@ pub use schema::{
     CaseFile, ContactMethod, EffectsTable, Field, PlateSupport, SnapshotLabel, Spot, Switch,
 };
 pub use source::changes::readable_name;
-pub use source::similar_words::nearest;
+pub use source::nearest;
 pub use sweep::Sweep;
 pub use sweep::axes::{Axis, AxisValue, SweptKey};
 pub use sweep::file::{Combine, Keep, PlotTable};

@@ -5,7 +5,6 @@
 
 pub(crate) mod accuracy_table;
 pub(crate) mod body_tables;
-pub(crate) mod choices;
 pub(crate) mod flow_table;
 pub(crate) mod macros;
 pub(crate) mod material_tables;

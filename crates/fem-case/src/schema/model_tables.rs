@@ -10,6 +10,7 @@ use crate::quantity::{
     Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
+use crate::schema::flow_table::HardeningTable;
 use crate::schema::macros::{keywords, optional_keys};
 
 optional_keys! {
@@ -271,6 +272,33 @@ pub(crate) struct LawKey {
     pub kind: QuantityInfo,
     #[cfg(all(test, feature = "schema"))]
     pub range: KeyRange,
+}
+
+/// A table that chooses one of its keys.
+pub(crate) struct Choice {
+    /// The keys that exclude each other; any key if empty.
+    exclusive: &'static [&'static str],
+    /// Names that stand for the table of this name with its defaults: `"ting"` for `{ ting = {} }`.
+    pub names: &'static [&'static str],
+}
+
+/// Returns the choice at a path of keys, if there is one.
+pub(crate) fn choice_at(path: &[&str]) -> Option<Choice> {
+    let choice = |exclusive, names| Some(Choice { exclusive, names });
+    match path {
+        ["model"] => choice(&[], ModelTable::NAMES),
+        ["model", "law"] => choice(LawTable::NAMES, LawTable::NAMES),
+        ["material", _, "flow", "hardening"] => choice(&[], HardeningTable::NAMES),
+        _ => None,
+    }
+}
+
+impl Choice {
+    /// Returns whether the table may have only one of these two keys, so that an override with one replaces the other.
+    pub fn is_between(&self, key: &str, other: &str) -> bool {
+        let is_exclusive = |key| self.exclusive.is_empty() || self.exclusive.contains(&key);
+        key != other && is_exclusive(key) && is_exclusive(other)
+    }
 }
 
 #[cfg(test)]

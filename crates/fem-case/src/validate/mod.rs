@@ -1,7 +1,6 @@
 //! Validation: turns a case as written into a scene. Units are converted, limits checked and names resolved; each fault
 //! points at its key.
 
-mod accuracy;
 mod bodies;
 pub(crate) mod flow;
 pub(crate) mod gravity;
@@ -17,9 +16,11 @@ use self::relaxation::check_temperature;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Quantity, QuantityKind};
-use crate::scene::{Limits, MeshSettings, Scene, UncertainInput, defaults};
+use crate::scene::{Accuracy, Limits, MeshSettings, Scene, UncertainInput, defaults};
 use crate::schema::CaseFile;
+use crate::schema::accuracy_table::{AccuracyTable, ToleranceValue};
 use crate::source::document::Document;
+use crate::source::toml_syntax::join;
 
 /// The number at a key of a table of the case.
 macro_rules! number {
@@ -110,6 +111,35 @@ pub(crate) struct Check<'a> {
 }
 
 impl Check<'_> {
+    /// Returns the tolerances of a case; 1 % by default.
+    pub(super) fn accuracy(&self, table: Option<&AccuracyTable>) -> Result<Accuracy, CaseError> {
+        let default = defaults::accuracy();
+        let key = "accuracy.tolerance";
+        match table.and_then(|table| table.tolerance.as_ref()) {
+            None => Ok(default),
+            Some(ToleranceValue::Share(share)) => {
+                Ok(Accuracy::within(self.number(key, share, Range::TOLERANCE)?))
+            }
+            Some(ToleranceValue::Table(table)) => {
+                macro_rules! share {
+                    ($key:ident) => {
+                        self.optional(
+                            &join(key, stringify!($key)),
+                            table.$key.as_ref(),
+                            Range::TOLERANCE,
+                        )?
+                        .unwrap_or(default.$key)
+                    };
+                }
+                Ok(Accuracy {
+                    restitution: share!(restitution),
+                    contact_time: share!(contact_time),
+                    peak_force: share!(peak_force),
+                    peak_pressure: share!(peak_pressure),
+                })
+            }
+        }
+    }
     /// Returns all numbers with an uncertainty.
     fn measured_inputs(&self) -> Result<Vec<UncertainInput>, CaseError> {
         let inputs = self.inputs.take();
