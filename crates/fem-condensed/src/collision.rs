@@ -132,27 +132,6 @@ impl CondensedPair {
         Ok(())
     }
 
-    /// Returns approach and forces at a time (s) after first touch, at the nearest of [`Self::N_STEPS`].
-    ///
-    /// # Errors
-    /// The errors are those of [`CondensedPair::impact`].
-    pub fn collide_until<'a>(
-        &self,
-        speed: f64,
-        damping: impl Into<Damping<'a>>,
-        time: f64,
-    ) -> Result<ContactState, CondensedError> {
-        let elastic = self.elastic_impact(speed)?;
-        let time_step = self.time_step(elastic.contact_time / Self::N_STEPS as f64);
-        let damping = damping.into();
-        damping.check()?;
-        let mut motion = ImpactMotion::new(self, speed, damping, time_step, self.points.len())?;
-        while motion.time() + 0.5 * time_step < time {
-            motion.advance()?;
-        }
-        Ok(ContactState { time: motion.time(), approach: motion.approach, forces: motion.forces })
-    }
-
     /// Returns the number of points to include at first, for a collision that closes all up to this one without
     /// relaxation.
     fn n_near(&self, last_closed: usize) -> usize {
@@ -182,17 +161,6 @@ impl CondensedPair {
         });
         squared.map(|squared| MAX_PHASE / squared.sqrt()).fold(asked, f64::min)
     }
-}
-
-/// Approach and contact forces at an instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ContactState {
-    /// Time since first touch, s.
-    pub time: f64,
-    /// Approach of the mass centres, m.
-    pub approach: f64,
-    /// Forces at the points, from the axis outward, N.
-    pub forces: Vec<f64>,
 }
 
 impl From<CondensedError> for Stop {
