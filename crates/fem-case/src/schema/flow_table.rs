@@ -137,24 +137,3 @@ impl<'de> Deserialize<'de> for FlowPoints {
         deserializer.deserialize_any(Visitor)
     }
 }
-
-#[cfg(all(test, feature = "schema"))]
-impl schemars::JsonSchema for FlowPoints {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "FlowPoints".into()
-    }
-
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let strain = generator.subschema_for::<Quantity<Number>>();
-        let stress = generator.subschema_for::<Quantity<Stress>>();
-        schemars::json_schema!({
-            "anyOf": [
-                { "type": "string", "description": "path of a CSV file" },
-                {
-                    "type": "array",
-                    "items": { "type": "array", "items": [strain, stress], "minItems": 2, "maxItems": 2 },
-                },
-            ],
-        })
-    }
-}

@@ -17,10 +17,10 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use self::quantity_pattern::{pattern, temperature_pattern};
-use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Time};
+use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Stress, Time};
 use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::schema::{
-    CaseFile, HardeningTable, LawTable, ModelTable, SnapshotLabel, SnapshotsValue,
+    CaseFile, FlowPoints, HardeningTable, LawTable, ModelTable, SnapshotLabel, SnapshotsValue,
 };
 use crate::sweep::file::SweepFile;
 
@@ -155,5 +155,25 @@ impl JsonSchema for ToleranceValue {
         let share = generator.subschema_for::<Quantity<Number>>();
         let table = generator.subschema_for::<ToleranceTable>();
         json_schema!({ "anyOf": [share, table] })
+    }
+}
+
+impl JsonSchema for FlowPoints {
+    fn schema_name() -> Cow<'static, str> {
+        "FlowPoints".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let strain = generator.subschema_for::<Quantity<Number>>();
+        let stress = generator.subschema_for::<Quantity<Stress>>();
+        json_schema!({
+            "anyOf": [
+                { "type": "string", "description": "path of a CSV file" },
+                {
+                    "type": "array",
+                    "items": { "type": "array", "items": [strain, stress], "minItems": 2, "maxItems": 2 },
+                },
+            ],
+        })
     }
 }
