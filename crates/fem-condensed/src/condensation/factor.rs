@@ -85,7 +85,9 @@ impl Elimination {
         let symbolic = Symbolic::new(ends, elements);
         let sizes = symbolic.fronts.iter().map(|front| front.values.len());
         let n_values = if keeps_factor { sizes.sum() } else { sizes.max().unwrap_or(0) };
-        let mut values = zeros(n_values)?;
+        let mut values = Vec::new();
+        values.try_reserve_exact(n_values).map_err(|_| CondensedError::OutOfMemory)?;
+        values.resize(n_values, 0.0);
         let widest = symbolic.fronts.iter().map(|front| front.columns.len()).max().unwrap_or(0);
         let params: Spec<LltParams, f64> = Spec::default();
         let request = cholesky_in_place_scratch::<f64>(widest, Par::Seq, params);
@@ -94,21 +96,23 @@ impl Elimination {
         let mut left: Vec<Vec<f64>> = vec![Vec::new(); symbolic.fronts.len()];
         // Memory of finished fronts is used again, because new pages are expensive.
         let mut free: Vec<Vec<f64>> = Vec::new();
-        let (mut forward, mut trailing) = (right, Mat::new());
-        let (mut below, mut places) = (Vec::new(), Vec::new());
+        let (mut forward, mut trailing, mut below) = (right, Mat::new(), Vec::new());
+        let mut places = Vec::new();
         for (number, front) in symbolic.fronts.iter().enumerate() {
             let own = front.columns.len();
             let later = &symbolic.later[front.later.clone()];
+            let n_rows = own + later.len();
             front.columns.clone().enumerate().for_each(|(k, equation)| place[equation] = k);
             later.iter().enumerate().for_each(|(k, &row)| place[row as usize] = own + k);
-            let panel = if keeps_factor {
-                &mut values[front.values.clone()]
-            } else {
-                values[..front.values.len()].fill(0.0);
-                &mut values[..front.values.len()]
+            let panel = match keeps_factor {
+                true => &mut values[front.values.clone()],
+                false => &mut values[..front.values.len()],
             };
+            if !keeps_factor {
+                panel.fill(0.0);
+            }
             let rest = cleared(free.pop().unwrap_or_default(), later.len());
-            let mut sum = Sum { own, n_rows: own + later.len(), panel, rest };
+            let mut sum = Sum { own, n_rows, panel, rest };
             for &element in symbolic.elements_of(number) {
                 sum.add_element(&elements[element as usize], &matrix(element as usize), &place);
             }
@@ -125,7 +129,7 @@ impl Elimination {
             if number + 1 == symbolic.fronts.len() {
                 let first = own.saturating_sub(n_trailing);
                 trailing = Mat::from_fn(own - first, own - first, |i, j| {
-                    if i < j { 0.0 } else { sum.panel[(first + j) * sum.n_rows + first + i] }
+                    if i < j { 0.0 } else { sum.panel[(first + j) * n_rows + first + i] }
                 });
             }
             left[number] = sum.rest;
@@ -134,14 +138,6 @@ impl Elimination {
         let factor = keeps_factor.then_some(Factor { fronts, later, values });
         Ok(Self { factor, trailing, forward })
     }
-}
-
-/// Returns n zeros, or the error that there is no memory for them.
-fn zeros(n: usize) -> Result<Vec<f64>, CondensedError> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(n).map_err(|_| CondensedError::OutOfMemory)?;
-    values.resize(n, 0.0);
-    Ok(values)
 }
 
 /// Returns n columns whose lower triangle is zero, in the given memory if it is large enough.
