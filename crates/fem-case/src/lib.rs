@@ -51,14 +51,14 @@
 mod case;
 mod case_edit;
 mod error;
-#[cfg(feature = "schema")]
-pub mod json_schema;
 pub mod library;
 mod quantity;
 mod scene;
 pub mod schema;
 mod source;
 mod sweep;
+#[cfg(all(test, feature = "schema"))]
+mod tests;
 mod validate;
 
 /// The JSON schema of case files, for editors that complete keys and mark errors.
@@ -89,7 +89,7 @@ pub use schema::{
     CaseFile, ContactMethod, EffectsTable, Field, PlateSupport, SnapshotLabel, Spot, Switch,
 };
 pub use source::changes::readable_name;
-pub use source::similar_words::nearest;
+pub use source::nearest;
 pub use sweep::Sweep;
 pub use sweep::axes::{Axis, AxisValue, SweptKey};
 pub use sweep::file::{Combine, Keep, PlotTable};

@@ -8,6 +8,7 @@ use crate::error::CondensedError;
 use crate::motion::ImpactMotion;
 use crate::pair::CondensedPair;
 use crate::run::ImpactRun;
+use crate::run::instants::RunTrace;
 use crate::settings::ContactModel;
 use crate::settings::Damping;
 
@@ -86,24 +87,12 @@ impl CondensedPair {
             finished = run(n_all)?;
         }
         let mut collision = finished.collision;
-        if request.snapshots != SnapshotRequest::none() {
+        if request.snapshots != SnapshotRequest::none() || !request.probes.is_empty() {
             monitor.enter(Phase::Fields);
-            let (trace, ending) = (&finished.trace, &collision.ending);
-            let request = &request.snapshots;
-            match self.snapshots(frame, damping, time_step, trace, ending, request) {
-                Ok((snapshots, missing)) => {
-                    collision.snapshots = snapshots;
-                    collision.warnings.splice(0..0, missing);
-                }
-                Err(error) => collision.ending = Ending::Stopped(error.into()),
-            }
-        }
-        if !request.probes.is_empty() {
-            monitor.enter(Phase::Fields);
-            let last = finished.trace.len().saturating_sub(1);
-            match self.probed(frame, damping, time_step, last, &request.probes) {
-                Ok(probes) => collision.probes = probes,
-                Err(error) => collision.ending = Ending::Stopped(error.into()),
+            let trace = &finished.trace;
+            let fields = self.add_fields(&mut collision, frame, damping, time_step, trace, request);
+            if let Err(error) = fields {
+                collision.ending = Ending::Stopped(error.into());
             }
         }
         let share = collision
@@ -119,25 +108,28 @@ impl CondensedPair {
         Ok(collision)
     }
 
-    /// Returns approach and forces at a time (s) after first touch, at the nearest of [`Self::N_STEPS`].
-    ///
-    /// # Errors
-    /// The errors are those of [`CondensedPair::impact`].
-    pub fn collide_until<'a>(
+    /// Adds the requested snapshots and probes to a finished collision.
+    fn add_fields(
         &self,
-        speed: f64,
-        damping: impl Into<Damping<'a>>,
-        time: f64,
-    ) -> Result<ContactState, CondensedError> {
-        let elastic = self.elastic_impact(speed)?;
-        let time_step = self.time_step(elastic.contact_time / Self::N_STEPS as f64);
-        let damping = damping.into();
-        damping.check()?;
-        let mut motion = ImpactMotion::new(self, speed, damping, time_step, self.points.len())?;
-        while motion.time() + 0.5 * time_step < time {
-            motion.advance()?;
+        collision: &mut Collision,
+        frame: &Frame,
+        damping: Damping<'_>,
+        time_step: f64,
+        trace: &[RunTrace],
+        request: &OutputRequest,
+    ) -> Result<(), CondensedError> {
+        if request.snapshots != SnapshotRequest::none() {
+            let (ending, asked) = (&collision.ending, &request.snapshots);
+            let (snapshots, missing) =
+                self.snapshots(frame, damping, time_step, trace, ending, asked)?;
+            collision.snapshots = snapshots;
+            collision.warnings.splice(0..0, missing);
         }
-        Ok(ContactState { time: motion.time(), approach: motion.approach, forces: motion.forces })
+        if !request.probes.is_empty() {
+            let last = trace.len().saturating_sub(1);
+            collision.probes = self.probed(frame, damping, time_step, last, &request.probes)?;
+        }
+        Ok(())
     }
 
     /// Returns the number of points to include at first, for a collision that closes all up to this one without
@@ -169,17 +161,6 @@ impl CondensedPair {
         });
         squared.map(|squared| MAX_PHASE / squared.sqrt()).fold(asked, f64::min)
     }
-}
-
-/// Approach and contact forces at an instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ContactState {
-    /// Time since first touch, s.
-    pub time: f64,
-    /// Approach of the mass centres, m.
-    pub approach: f64,
-    /// Forces at the points, from the axis outward, N.
-    pub forces: Vec<f64>,
 }
 
 impl From<CondensedError> for Stop {

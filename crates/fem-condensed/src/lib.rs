@@ -67,7 +67,6 @@ mod pair;
 mod run;
 mod settings;
 
-pub use collision::ContactState;
 pub use contact::elastic_impact::ElasticImpact;
 pub use error::CondensedError;
 pub use operators::slip::Slip;

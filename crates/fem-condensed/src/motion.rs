@@ -81,18 +81,13 @@ impl<'a> ImpactMotion<'a> {
         time_step: f64,
         n_points: usize,
     ) -> Result<Self, CondensedError> {
-        let relaxations = damping.relaxations;
-        let mut compliance = faer::Mat::zeros(n_points, n_points);
-        let inertia = BETA * time_step * time_step / pair.reduced_mass;
-        for i in 0..n_points {
-            compliance[(i, i)] = pair.spring_compliance[i];
-            for j in 0..n_points {
-                compliance[(i, j)] += inertia;
-            }
-        }
+        let of_spring = |i: usize, j: usize| if i == j { pair.spring_compliance[i] } else { 0.0 };
+        let mut compliance = faer::Mat::from_fn(n_points, n_points, of_spring);
+        add_to_all(&mut compliance, BETA * time_step * time_step / pair.reduced_mass);
         let mut sides = [BodyState::default(), BodyState::default()];
         for (which, state) in sides.iter_mut().enumerate() {
-            let (Some(side), series) = (&pair.sides[which], relaxations[which]) else { continue };
+            let Some(side) = &pair.sides[which] else { continue };
+            let series = damping.relaxations[which];
             let shear_blocks = pair.shear_blocks(series, speed)?;
             *state = BodyState::new(side, series, shear_blocks, time_step, n_points)?;
             match &state.springs {
@@ -115,13 +110,7 @@ impl<'a> ImpactMotion<'a> {
         let plate = damping.plate_mobility.map(|mobility| PlateDashpot::new(mobility, time_step));
         let of_waves = waves.as_ref().map(WaveRadiation::compliance);
         let of_plate = plate.as_ref().map(PlateDashpot::compliance);
-        for added in of_waves.into_iter().chain(of_plate) {
-            for i in 0..n_points {
-                for j in 0..n_points {
-                    compliance[(i, j)] += added;
-                }
-            }
-        }
+        [of_waves, of_plate].into_iter().flatten().for_each(|it| add_to_all(&mut compliance, it));
         let open = pair.points[..n_points].iter().map(|point| -point.initial_gap).collect();
         Ok(Self {
             pair,
@@ -392,5 +381,12 @@ impl BodyState {
 
     fn chains_mut(&mut self) -> impl Iterator<Item = &mut ViscoelasticModes> {
         self.springs.iter_mut().chain(&mut self.slip).chain(self.vibration.iter_mut().flatten())
+    }
+}
+
+/// Adds a compliance, m/N, of the whole motion to that of all points.
+fn add_to_all(compliance: &mut faer::Mat<f64>, added: f64) {
+    for column in compliance.col_iter_mut() {
+        column.iter_mut().for_each(|entry| *entry += added);
     }
 }

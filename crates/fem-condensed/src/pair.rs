@@ -81,21 +81,13 @@ impl CondensedPair {
         }
         let spring_compliance: Vec<f64> =
             points.iter().map(|point| (point.stiffness * point.area).recip()).collect();
-        let n = points.len();
-        let mut compliance = Mat::<f64>::zeros(n, n);
-        for side in sides.iter().flatten() {
-            compliance += &side.compliance;
-        }
-        for (k, spring) in spring_compliance.iter().enumerate() {
-            compliance[(k, k)] += spring;
-        }
-        if let Some(slip) = &settings.slip {
+        let of_slip = settings.slip.as_ref().map(|slip| {
             let of_side = |side: usize| {
                 inputs[side].material().map_or(0.0, |m| slip.compliance(side, m.instantaneous()))
             };
-            let added = of_side(0) + of_side(1);
-            compliance = Mat::from_fn(n, n, |i, j| compliance[(i, j)] + added);
-        }
+            of_side(0) + of_side(1)
+        });
+        let compliance = total_compliance(&sides, &spring_compliance, of_slip);
         let carrier = if nodal_side.is_some() { None } else { coarser(&sides) };
         let nodes = pressure_nodes(&points, carrier);
         let staggered = carrier.and_then(|carrier| Staggered::beside(carrier, &sides, &points));
@@ -334,4 +326,24 @@ fn check_mass(mass: f64) -> Result<f64, CondensedError> {
     }
     let (name, allowed) = ("mass of a rigid sphere", "positive and finite, in kg");
     Err(CondensedError::Setting { name, value: mass, allowed })
+}
+
+/// Returns the compliance of both bodies, of the springs between the points, and of slip, which is the same for all of them, m/N.
+fn total_compliance(
+    sides: &[Option<BodyOperator>; 2],
+    springs: &[f64],
+    of_slip: Option<f64>,
+) -> Mat<f64> {
+    let n = springs.len();
+    let mut compliance = Mat::<f64>::zeros(n, n);
+    for side in sides.iter().flatten() {
+        compliance += &side.compliance;
+    }
+    for (k, spring) in springs.iter().enumerate() {
+        compliance[(k, k)] += spring;
+    }
+    match of_slip {
+        Some(added) => Mat::from_fn(n, n, |i, j| compliance[(i, j)] + added),
+        None => compliance,
+    }
 }

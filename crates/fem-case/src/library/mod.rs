@@ -17,7 +17,7 @@ use toml::map::Entry;
 
 use crate::quantity::{Quantity, Stress};
 use crate::schema::{CaseFile, FlowPoints, FlowTable, MaterialTable};
-use crate::source::similar_words::nearest;
+use crate::source::nearest;
 use crate::source::toml_syntax::shift;
 
 pub use measured_restitution::MeasuredRestitution;

@@ -35,7 +35,7 @@ impl Range {
     /// Surface energies, J/m², of which two are a work of adhesion.
     pub const SURFACE_ENERGY: Self = Self::above(0.0, 500.0);
     pub const RESTITUTION: Self = Self::above(0.0, 1.0);
-    #[cfg(feature = "schema")]
+    #[cfg(all(test, feature = "schema"))]
     pub const POISSONS_RATIO: Self = Self::between(-1.0, 0.5);
     /// A coefficient of a contact law with the meaning of Poisson's ratio.
     pub const LIKE_POISSONS_RATIO: Self = Self::between(-1.0, 1.0);

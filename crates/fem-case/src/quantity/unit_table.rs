@@ -47,10 +47,10 @@ impl UnitScale {
     }
 }
 
-struct Unit {
-    symbol: &'static str,
-    prefixable: bool,
-    scale: UnitScale,
+pub(crate) struct Unit {
+    pub symbol: &'static str,
+    pub prefixable: bool,
+    pub scale: UnitScale,
 }
 
 const fn unit(symbol: &'static str, dimension: [i32; 4], ten: i32) -> Unit {
@@ -73,7 +73,7 @@ const PRESSURE: [i32; 4] = [-1, 1, -2, 0];
 const BYTES: [i32; 4] = [0, 0, 0, 1];
 
 /// The units, all exact by definition. lbf = lb g_n = 0.45359237 · 9.80665 N, and psi = lbf/in².
-const UNITS: &[Unit] = &[
+pub(crate) const UNITS: &[Unit] = &[
     unit("m", LENGTH, 0),
     unit("g", MASS, -3),
     unit("s", TIME, 0),
@@ -117,7 +117,7 @@ const UNITS: &[Unit] = &[
 ];
 
 /// SI prefixes; micro may be either Unicode micro sign or `u`.
-const PREFIXES: &[(&str, i32)] = &[
+pub(crate) const PREFIXES: &[(&str, i32)] = &[
     ("Q", 30),
     ("R", 27),
     ("Y", 24),
@@ -161,27 +161,6 @@ pub(crate) fn find_unit(symbol: &str) -> Option<UnitScale> {
         }
     }
     None
-}
-
-/// Returns a regular expression of all symbols whose dimension (metre, kilogram, second, byte) satisfies a condition; empty
-/// if there are none.
-#[cfg(feature = "schema")]
-pub(crate) fn symbols(is_one: impl Fn([i32; 4]) -> bool) -> String {
-    let of = |prefixable: bool| {
-        let units = UNITS.iter().filter(|unit| is_one(unit.scale.dimension));
-        let symbols: Vec<_> =
-            units.filter(|unit| unit.prefixable == prefixable).map(|unit| unit.symbol).collect();
-        symbols.join("|")
-    };
-    let prefixes: Vec<_> = PREFIXES.iter().map(|(prefix, _)| *prefix).collect();
-    let (plain, prefixable) = (of(false), of(true));
-    let prefixed = format!("({})?({prefixable})", prefixes.join("|"));
-    match (plain.is_empty(), prefixable.is_empty()) {
-        (true, true) => String::new(),
-        (false, true) => format!("({plain})"),
-        (true, false) => format!("({prefixed})"),
-        (false, false) => format!("({plain}|{prefixed})"),
-    }
 }
 
 /// Returns the unit that an unknown symbol may mean: one with the same letters in another case ("Gpa" → "GPa"), or one with

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [[body]]")]
 pub struct BodyTable {
     /// A unique name of letters, digits, `_` and `-`.
@@ -111,7 +111,7 @@ impl BodyTable {
 
 /// `sphere = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
 pub struct SphereTable {
     /// Diameter, > 0.
@@ -134,7 +134,7 @@ impl SphereTable {
 
 /// `plate = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { thickness = \"5 mm\" }")]
 pub struct PlateTable {
     /// Thickness, > 0.
@@ -166,6 +166,6 @@ keywords! {
 
 /// A table without keys, whose presence selects something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an empty table, {}")]
 pub struct EmptyTable {}

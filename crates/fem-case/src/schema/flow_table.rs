@@ -52,7 +52,7 @@ impl HardeningTable {
 
 /// `swift = { … }`: the flow stress Y (1 + ε/ε_s)ⁿ.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { strain = 0.002, exponent = 0.2 }")]
 pub struct SwiftTable {
     /// Reference strain ε_s, > 0.
@@ -63,7 +63,7 @@ pub struct SwiftTable {
 
 /// `rate = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
     expecting = "a table such as { johnson_cook = { c = 0.014, reference_rate = \"1 1/s\" } }"
@@ -75,7 +75,7 @@ pub struct RateTable {
 
 /// `johnson_cook = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
     expecting = "a table such as { c = 0.014, reference_rate = \"1 1/s\" }"
@@ -135,26 +135,5 @@ impl<'de> Deserialize<'de> for FlowPoints {
             }
         }
         deserializer.deserialize_any(Visitor)
-    }
-}
-
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for FlowPoints {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "FlowPoints".into()
-    }
-
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let strain = generator.subschema_for::<Quantity<Number>>();
-        let stress = generator.subschema_for::<Quantity<Stress>>();
-        schemars::json_schema!({
-            "anyOf": [
-                { "type": "string", "description": "path of a CSV file" },
-                {
-                    "type": "array",
-                    "items": { "type": "array", "items": [strain, stress], "minItems": 2, "maxItems": 2 },
-                },
-            ],
-        })
     }
 }

@@ -9,7 +9,7 @@ macro_rules! optional_keys {
     }) => {
         $(#[$meta])*
         #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
-        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
         #[serde(deny_unknown_fields, expecting = $expecting)]
         pub struct $name {
             $($(#[$doc])* #[serde(skip_serializing_if = "Option::is_none")] pub $key: Option<$type>,)+
@@ -39,7 +39,7 @@ macro_rules! keywords {
             }
         }
 
-        #[cfg(feature = "schema")]
+        #[cfg(all(test, feature = "schema"))]
         impl schemars::JsonSchema for $name {
             fn schema_name() -> std::borrow::Cow<'static, str> {
                 stringify!($name).into()

@@ -8,7 +8,7 @@ use crate::schema::macros::{keywords, optional_keys};
 
 /// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation or plastic flow.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass]")]
 pub struct MaterialTable {
     /// Mass per volume, > 0.
@@ -127,7 +127,7 @@ impl From<HyperelasticLaw> for fem_material::finite::HyperelasticLaw {
 
 /// `[material.NAME.relaxation]`: a Prony series.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
 pub struct RelaxationTable {
     /// Path of a TOML file with the other keys of this table, relative to the case; a case that was read has these keys
@@ -187,7 +187,7 @@ optional_keys! {
 
 /// `wlf = { … }`: log10 a_T = −C1 ΔT/(C2 + ΔT).
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { c1 = 17.4, c2 = 51.6 }")]
 pub struct WlfTable {
     /// The first constant, C1.
@@ -198,7 +198,7 @@ pub struct WlfTable {
 
 /// `arrhenius = { … }`: ln a_T = Θ (1/T − 1/T_r).
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { activation_temperature = 12000 }")]
 pub struct ArrheniusTable {
     /// Activation energy over the gas constant, Θ, in kelvin, ≥ 0.
@@ -207,7 +207,7 @@ pub struct ArrheniusTable {
 
 /// `band = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { from = \"0.1 Hz\", to = \"100 Hz\" }")]
 pub struct BandTable {
     /// The lowest frequency, > 0.
@@ -249,7 +249,7 @@ impl From<ActsOn> for fem_material::ActsOn {
 
 /// A Prony term: its weight and exactly one of decay rate and relaxation time.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
     expecting = "a table such as { weight = 1.0, decay_rate = \"2708 1/s\" }"

@@ -5,7 +5,6 @@
 
 pub(crate) mod accuracy_table;
 pub(crate) mod body_tables;
-pub(crate) mod choices;
 pub(crate) mod flow_table;
 pub(crate) mod macros;
 pub(crate) mod material_tables;
@@ -29,7 +28,7 @@ pub use crate::schema::model_tables::*;
 
 /// A whole case file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("required" = ["body"])))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema), schemars(extend("required" = ["body"])))]
 #[serde(deny_unknown_fields)]
 pub struct CaseFile {
     /// Title of the case; the file's stem if absent.
@@ -41,11 +40,11 @@ pub struct CaseFile {
     /// The tables `[material.NAME]`, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     // A table `[material."lib:NAME"]` may have any keys, since the library gives the others.
-    #[cfg_attr(feature = "schema", schemars(extend("patternProperties" = serde_json::json!({ "^lib:": { "type": "object" } }))))]
+    #[cfg_attr(all(test, feature = "schema"), schemars(extend("patternProperties" = serde_json::json!({ "^lib:": { "type": "object" } }))))]
     pub material: BTreeMap<String, MaterialTable>,
     /// `[[body]]`, exactly two; the first lies below the second on the axis y.
     #[serde(default)]
-    #[cfg_attr(feature = "schema", schemars(length(equal = 2)))]
+    #[cfg_attr(all(test, feature = "schema"), schemars(length(equal = 2)))]
     pub body: Vec<BodyTable>,
     /// Positions of the bodies at time 0.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -134,7 +133,7 @@ optional_keys! {
 
 /// `[gravity]`: the weight of the upper sphere, which the lower body supports.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [gravity]")]
 pub struct GravityTable {
     /// Acceleration along -y, > 0.
@@ -225,7 +224,7 @@ optional_keys! {
 
 /// `[output]`: the fields that are written.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [output]")]
 pub struct OutputTable {
     /// The instants at which fields are written.
@@ -244,7 +243,7 @@ pub struct OutputTable {
 
 /// `[[output.probe]]`: a point of a body whose fields are recorded over time.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [[output.probe]]")]
 pub struct ProbeTable {
     /// The name of a body.

@@ -1,6 +1,8 @@
 //! `[model]` as written: the model of the collision and its keys.
 
-use fem_laws::{EndRule, KeyRange, LawFamily};
+#[cfg(all(test, feature = "schema"))]
+use fem_laws::KeyRange;
+use fem_laws::{EndRule, LawFamily};
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{
@@ -8,6 +10,7 @@ use crate::quantity::{
     Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
+use crate::schema::flow_table::HardeningTable;
 use crate::schema::macros::{keywords, optional_keys};
 
 optional_keys! {
@@ -166,7 +169,7 @@ macro_rules! law_tables {
         $(
             $(#[$doc])*
             #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-            #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+            #[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
             #[serde(deny_unknown_fields, expecting = $example)]
             pub struct $table {
                 $(
@@ -191,7 +194,7 @@ macro_rules! law_tables {
 
         /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand next to it.
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema))]
         #[serde(
             deny_unknown_fields,
             expecting = "a table such as { kuwabara_kono = { a = \"1e-6 s\" } }"
@@ -217,10 +220,11 @@ macro_rules! law_tables {
             /// All number keys of all laws.
             pub(crate) const KEYS: &'static [LawKey] = &[$($(LawKey {
                 family: LawFamily::$variant,
-                #[cfg(feature = "schema")]
+                #[cfg(all(test, feature = "schema"))]
                 table: stringify!($table),
                 key: stringify!($key),
                 kind: <$kind>::INFO,
+                #[cfg(all(test, feature = "schema"))]
                 range: KeyRange::$range,
             },)*)+];
 
@@ -262,12 +266,39 @@ fem_laws::contact_laws!(law_tables);
 pub(crate) struct LawKey {
     pub family: LawFamily,
     /// The type of the law's table.
-    #[cfg(feature = "schema")]
+    #[cfg(all(test, feature = "schema"))]
     pub table: &'static str,
     pub key: &'static str,
     pub kind: QuantityInfo,
-    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema reads it"))]
+    #[cfg(all(test, feature = "schema"))]
     pub range: KeyRange,
+}
+
+/// A table that chooses one of its keys.
+pub(crate) struct Choice {
+    /// The keys that exclude each other; any key if empty.
+    exclusive: &'static [&'static str],
+    /// Names that stand for the table of this name with its defaults: `"ting"` for `{ ting = {} }`.
+    pub names: &'static [&'static str],
+}
+
+/// Returns the choice at a path of keys, if there is one.
+pub(crate) fn choice_at(path: &[&str]) -> Option<Choice> {
+    let choice = |exclusive, names| Some(Choice { exclusive, names });
+    match path {
+        ["model"] => choice(&[], ModelTable::NAMES),
+        ["model", "law"] => choice(LawTable::NAMES, LawTable::NAMES),
+        ["material", _, "flow", "hardening"] => choice(&[], HardeningTable::NAMES),
+        _ => None,
+    }
+}
+
+impl Choice {
+    /// Returns whether the table may have only one of these two keys, so that an override with one replaces the other.
+    pub fn is_between(&self, key: &str, other: &str) -> bool {
+        let is_exclusive = |key| self.exclusive.is_empty() || self.exclusive.contains(&key);
+        key != other && is_exclusive(key) && is_exclusive(other)
+    }
 }
 
 #[cfg(test)]

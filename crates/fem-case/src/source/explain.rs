@@ -5,10 +5,10 @@ use std::ops::Range;
 use toml::de::Error;
 
 use crate::error::CaseError;
-use crate::schema::choices::choice_at;
+use crate::schema::model_tables::choice_at;
 use crate::schema::{CaseFile, HardeningTable};
 use crate::source::document::Document;
-use crate::source::similar_words::nearest;
+use crate::source::nearest;
 use crate::source::toml_syntax::{first_line, join, quote_key};
 use crate::sweep::values::split_unit;
 

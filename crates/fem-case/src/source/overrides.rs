@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
-use crate::schema::choices::choice_at;
+use crate::schema::model_tables::choice_at;
 use crate::source::toml_syntax::{first_line, is_bare, quote_key, shift};
 
 /// The largest number of parts of a key, more than any key of a case has: it limits recursion over the tree.

@@ -8,7 +8,7 @@ use crate::schema::macros::{keywords, optional_keys};
 
 /// A whole sweep file.
 #[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("required" = ["case", "vary"])))]
+#[cfg_attr(all(test, feature = "schema"), derive(schemars::JsonSchema), schemars(extend("required" = ["case", "vary"])))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SweepFile {
     /// Path of the base case, relative to the sweep file.
@@ -23,7 +23,7 @@ pub(crate) struct SweepFile {
     /// Dotted keys and lists; `sweep::axes` reads them with their positions.
     #[serde(default, rename = "vary")]
     #[cfg_attr(
-        feature = "schema",
+        all(test, feature = "schema"),
         schemars(
             description = "Dotted keys, and the values of each.",
             with = "std::collections::BTreeMap<String, serde_json::Value>"

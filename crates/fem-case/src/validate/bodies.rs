@@ -46,23 +46,7 @@ impl Check<'_> {
         };
         let (lower_shape, lower_speed) = self.body("body.0", lower, &materials)?;
         let (upper_shape, upper_speed) = self.body("body.1", upper, &materials)?;
-        if lower.name == upper.name {
-            let message = format!("both bodies have the name \"{}\"", upper.name);
-            return Err(self
-                .conflict("body.1.name", &["body.0.name"], message)
-                .with_help("give each its own name"));
-        }
-        if let (Some(below), Some(above)) = (flat(lower), flat(upper)) {
-            let noun = |key: &str| key.replace('_', "-");
-            let message = match below == above {
-                true => format!("both bodies are {}s", noun(below)),
-                false => format!("one body is a {} and the other a {}", noun(below), noun(above)),
-            };
-            let keys = [join("body.0", below), join("body.1", above)];
-            return Err(self.conflict(&keys[1], &[&keys[0]], message).with_help(
-                "one body must be a sphere: write sphere = { diameter = \"22.2 mm\" } here",
-            ));
-        }
+        self.distinct(lower, upper)?;
         // A falling body may start at rest or move up.
         if file.gravity.is_none() {
             self.approach([lower_speed, upper_speed])?;
@@ -137,6 +121,25 @@ impl Check<'_> {
             }
             _ => Ok(spin),
         }
+    }
+
+    /// Checks that two bodies have names of their own, and that one of them is a sphere.
+    fn distinct(&self, lower: &BodyTable, upper: &BodyTable) -> Result<(), CaseError> {
+        if lower.name == upper.name {
+            let message = format!("both bodies have the name \"{}\"", upper.name);
+            let error = self.conflict("body.1.name", &["body.0.name"], message);
+            return Err(error.with_help("give each its own name"));
+        }
+        let (Some(below), Some(above)) = (flat(lower), flat(upper)) else { return Ok(()) };
+        let noun = |key: &str| key.replace('_', "-");
+        let message = match below == above {
+            true => format!("both bodies are {}s", noun(below)),
+            false => format!("one body is a {} and the other a {}", noun(below), noun(above)),
+        };
+        let keys = [join("body.0", below), join("body.1", above)];
+        Err(self
+            .conflict(&keys[1], &[&keys[0]], message)
+            .with_help("one body must be a sphere: write sphere = { diameter = \"22.2 mm\" } here"))
     }
 
     /// Checks that bodies with these approach speeds, m/s, meet.

@@ -1,7 +1,6 @@
 //! Validation: turns a case as written into a scene. Units are converted, limits checked and names resolved; each fault
 //! points at its key.
 
-mod accuracy;
 mod bodies;
 pub(crate) mod flow;
 pub(crate) mod gravity;
@@ -17,9 +16,22 @@ use self::relaxation::check_temperature;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Quantity, QuantityKind};
-use crate::scene::{Limits, MeshSettings, Scene, UncertainInput, defaults};
+use crate::scene::{Accuracy, Limits, MeshSettings, Scene, UncertainInput, defaults};
 use crate::schema::CaseFile;
+use crate::schema::accuracy_table::{AccuracyTable, ToleranceValue};
 use crate::source::document::Document;
+use crate::source::toml_syntax::join;
+
+/// The number at a key of a table of the case.
+macro_rules! number {
+    ($check:ident, $table:ident.$key:ident, $allowed:expr) => {
+        $check.optional(
+            concat!(stringify!($table), ".", stringify!($key)),
+            $table.$key.as_ref(),
+            $allowed,
+        )?
+    };
+}
 
 /// Returns the scene of a case, or its first fault.
 ///
@@ -40,18 +52,8 @@ pub(crate) fn validate(
     let time = file.time.clone().unwrap_or_default();
     let output = file.output.clone().unwrap_or_default();
     let limits = file.limits.clone().unwrap_or_default();
-    // The number at a key of one of these tables.
-    macro_rules! number {
-        ($table:ident.$key:ident, $allowed:expr) => {
-            check.optional(
-                concat!(stringify!($table), ".", stringify!($key)),
-                $table.$key.as_ref(),
-                $allowed,
-            )?
-        };
-    }
     let bodies = check.bodies(file)?;
-    let gap = number!(start.gap, Range::NOT_NEGATIVE);
+    let gap = number!(check, start.gap, Range::NOT_NEGATIVE);
     let gravity = check.gravity(file, &bodies, gap.unwrap_or(defaults::GAP))?;
     let probes = check.probes(&output.probe, &bodies)?;
     let scene = Scene {
@@ -61,18 +63,18 @@ pub(crate) fn validate(
         gap,
         gravity,
         mesh: MeshSettings {
-            contact_element_size: number!(mesh.contact_element_size, Range::POSITIVE),
-            refined_radius: number!(mesh.refined_radius, Range::POSITIVE),
-            growth: number!(mesh.growth, Range::GROWTH),
-            far_radius: number!(mesh.far_radius, Range::POSITIVE),
+            contact_element_size: number!(check, mesh.contact_element_size, Range::POSITIVE),
+            refined_radius: number!(check, mesh.refined_radius, Range::POSITIVE),
+            growth: number!(check, mesh.growth, Range::GROWTH),
+            far_radius: number!(check, mesh.far_radius, Range::POSITIVE),
             staggered: mesh.staggered,
         },
         contact_method: contact.method,
-        penalty_factor: number!(contact.penalty_factor, Range::POSITIVE),
-        work_of_adhesion: number!(contact.work_of_adhesion, Range::WORK_OF_ADHESION),
-        friction: number!(contact.friction, Range::NOT_NEGATIVE).unwrap_or_default(),
-        step_factor: number!(time.step_factor, Range::STEP_FACTOR),
-        mass_scaling: number!(time.mass_scaling, Range::MASS_SCALING),
+        penalty_factor: number!(check, contact.penalty_factor, Range::POSITIVE),
+        work_of_adhesion: number!(check, contact.work_of_adhesion, Range::WORK_OF_ADHESION),
+        friction: number!(check, contact.friction, Range::NOT_NEGATIVE).unwrap_or_default(),
+        step_factor: number!(check, time.step_factor, Range::STEP_FACTOR),
+        mass_scaling: number!(check, time.mass_scaling, Range::MASS_SCALING),
         snapshots: output.snapshots.as_ref().map(|value| check.snapshots(value)).transpose()?,
         probes,
         fields: output.fields,
@@ -81,10 +83,10 @@ pub(crate) fn validate(
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),
         limits: Limits {
-            elements: number!(limits.elements, Range::COUNT).map(|count| count as u64),
-            element_updates: number!(limits.element_updates, Range::COUNT)
+            elements: number!(check, limits.elements, Range::COUNT).map(|count| count as u64),
+            element_updates: number!(check, limits.element_updates, Range::COUNT)
                 .map(|count| count as u64),
-            memory: number!(limits.memory, Range::COUNT).map(|bytes| bytes as u64),
+            memory: number!(check, limits.memory, Range::COUNT).map(|bytes| bytes as u64),
         },
         refinement: 1.0,
         inputs: Vec::new(),
@@ -110,6 +112,35 @@ pub(crate) struct Check<'a> {
 }
 
 impl Check<'_> {
+    /// Returns the tolerances of a case; 1 % by default.
+    pub(super) fn accuracy(&self, table: Option<&AccuracyTable>) -> Result<Accuracy, CaseError> {
+        let default = defaults::accuracy();
+        let key = "accuracy.tolerance";
+        match table.and_then(|table| table.tolerance.as_ref()) {
+            None => Ok(default),
+            Some(ToleranceValue::Share(share)) => {
+                Ok(Accuracy::within(self.number(key, share, Range::TOLERANCE)?))
+            }
+            Some(ToleranceValue::Table(table)) => {
+                macro_rules! share {
+                    ($key:ident) => {
+                        self.optional(
+                            &join(key, stringify!($key)),
+                            table.$key.as_ref(),
+                            Range::TOLERANCE,
+                        )?
+                        .unwrap_or(default.$key)
+                    };
+                }
+                Ok(Accuracy {
+                    restitution: share!(restitution),
+                    contact_time: share!(contact_time),
+                    peak_force: share!(peak_force),
+                    peak_pressure: share!(peak_pressure),
+                })
+            }
+        }
+    }
     /// Returns all numbers with an uncertainty.
     fn measured_inputs(&self) -> Result<Vec<UncertainInput>, CaseError> {
         let inputs = self.inputs.take();

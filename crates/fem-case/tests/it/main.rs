@@ -7,8 +7,6 @@ mod library;
 mod overrides;
 mod relaxation_file;
 mod round_trip;
-#[cfg(feature = "schema")]
-mod schemas;
 mod sweep_faults;
 
 use std::path::Path;

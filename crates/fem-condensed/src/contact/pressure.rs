@@ -58,7 +58,7 @@ impl CondensedPair {
 
     /// Returns the pressure at the nodes of a deformable side from the axis outward, (r in m, p in Pa): nodal
     /// force over nodal area.
-    pub fn nodal_pressure<'a>(
+    pub(crate) fn nodal_pressure<'a>(
         &'a self,
         forces: &'a [f64],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {

@@ -59,23 +59,10 @@ pub(crate) fn choose(
     };
     let chosen = match request {
         SnapshotRequest::Labels(labels) => {
-            let top = (0..trace.len())
-                .max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach))
-                .unwrap_or(0);
-            let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
             let wanted = SnapshotInstant::OF_CONTACT.iter().filter(|label| labels.contains(label));
             let mut chosen = Vec::new();
             for label in wanted {
-                let found = match label {
-                    SnapshotInstant::MidCompression => passes(trace, 0..top, half),
-                    SnapshotInstant::Maximum => Some(TraceInstant::at(top)),
-                    SnapshotInstant::MidSeparation => passes(trace, top..end, half),
-                    SnapshotInstant::LastContact => {
-                        (*ending != Ending::Together).then_some(TraceInstant::at(last))
-                    }
-                    SnapshotInstant::AfterSeparation | SnapshotInstant::LastValid => None,
-                };
-                match found {
+                match labelled(trace, *label, last, ending) {
                     Some(instant) => chosen.push((instant, Some(*label))),
                     None => missing.push(did_not_occur(*label)),
                 }
@@ -109,6 +96,28 @@ pub(crate) fn choose(
         }
     };
     (chosen, missing)
+}
+
+/// Returns the instant of a label, if it occurs; `last` is the last step with contact.
+fn labelled(
+    trace: &[RunTrace],
+    label: SnapshotInstant,
+    last: usize,
+    ending: &Ending,
+) -> Option<TraceInstant> {
+    let top = (0..trace.len())
+        .max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach))
+        .unwrap_or(0);
+    let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
+    match label {
+        SnapshotInstant::MidCompression => passes(trace, 0..top, half),
+        SnapshotInstant::Maximum => Some(TraceInstant::at(top)),
+        SnapshotInstant::MidSeparation => passes(trace, top..trace.len().saturating_sub(1), half),
+        SnapshotInstant::LastContact => {
+            (*ending != Ending::Together).then_some(TraceInstant::at(last))
+        }
+        SnapshotInstant::AfterSeparation | SnapshotInstant::LastValid => None,
+    }
 }
 
 /// Returns the instant at which the approach passes a level between two steps with contact.

@@ -5,6 +5,8 @@ use crate::common::{
     assert_pulse, assert_restitution, collide, glass, hertz_pulse, material, ting_pulse,
     unlike_scenes,
 };
+use crate::snapshots::drawn;
+use fem_collision::{SnapshotInstant, SnapshotRequest};
 use fem_condensed::{CondensedError, CondensedPair};
 use fem_material::ActsOn::{All, Shear};
 
@@ -99,13 +101,14 @@ fn small_elastic_contact_equals_hertz() {
     assert_pulse(&run, hertz_pulse(&hertz), [1e-4, 1e-3, 3e-4]);
     assert_close("radius", run.max_contact_radius.unwrap(), hertz.max_contact_radius(), 3e-3);
     assert_close("pressure", run.peak_pressure.unwrap(), hertz.peak_pressure(), 1e-2);
-    // The whole profile at the row of largest force, against Hertz' at that approach.
-    let state =
-        pair.collide_until(scene.speed, [None; 2], 0.5 * run.contact_time.unwrap()).unwrap();
-    let pressure = hertz.pressure(state.approach);
-    let profile: Vec<_> = pair.nodal_pressure(&state.forces).collect();
+    // The whole profile at the largest approach, against Hertz' there.
+    let largest = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
+    let run = drawn(&pair, pair.frame(scene.speed).unwrap(), largest, CondensedPair::N_STEPS);
+    let snapshot = &run.snapshots[0];
+    let pressure = hertz.pressure(snapshot.approach);
+    let nodes = snapshot.contact.places.iter().filter(|place| place.is_node);
     let mut n_checked = 0;
-    for (r, p) in profile {
+    for (r, p) in nodes.map(|place| (place.radius, place.pressure)) {
         // The axis node stands for a disc, the outermost for the edge's square root.
         if r > 0.0 && r < 0.85 * pressure.contact_radius {
             assert_close("profile", p, pressure.pressure(r), 1e-2);

@@ -14,7 +14,7 @@ fn relaxing(acts_on: ActsOn) -> Material {
 }
 
 /// A collision with the relaxations of the bodies' own materials and these snapshots.
-fn drawn(
+pub(crate) fn drawn(
     pair: &CondensedPair,
     frame: Frame,
     snapshots: SnapshotRequest,

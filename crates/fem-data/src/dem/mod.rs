@@ -329,19 +329,14 @@ impl Export {
         }
         if let Some(([strength, ratio], _)) = self.mdr {
             let n_sides = self.spheres.len() as f64;
-            let young = n_sides * (1.0 - ratio * ratio) * modulus;
-            numbers.extend([
-                ("mdr_strength", strength),
-                ("mdr_young", young),
-                ("mdr_poisson", ratio),
-            ]);
+            numbers.extend([("mdr_strength", strength), ("mdr_poisson", ratio)]);
+            numbers.insert("mdr_young", n_sides * (1.0 - ratio * ratio) * modulus);
         }
+        // Codes that end the contact at the force 0.
         let Ok(law) = linear(EndRule::ZeroForce) else { return Ok(numbers) };
-        numbers.extend([
-            ("point_stiffness", 2.0 * law.stiffness()),
-            ("mujoco_stiffness", law.stiffness() / mass),
-            ("mujoco_damping", law.damping() / mass),
-        ]);
+        let [stiffness, damping] = [law.stiffness(), law.damping()].map(|of| of / mass);
+        numbers.extend([("mujoco_stiffness", stiffness), ("mujoco_damping", damping)]);
+        numbers.insert("point_stiffness", 2.0 * law.stiffness());
         if let Some((time, en)) = viscel_entry(pair, &law) {
             numbers.extend([("viscel_tc", time), ("viscel_en", en)]);
         }

@@ -21,7 +21,7 @@ use nalgebra::DMatrix;
 
 use crate::estimate::error::FitError;
 use crate::estimate::least_squares::{jacobian, quantile};
-use crate::estimate::problem::Problem;
+use crate::estimate::problem::{Free, Problem};
 use crate::estimate::robust::{Fitted, Robustness, reweight};
 
 /// A fitted law.
@@ -136,6 +136,31 @@ impl Problem<'_> {
         if self.has_uncertainties() { 1.0 } else { LEAST_SCALE }
     }
 
+    /// Returns the estimate of a free parameter with an error of its variable, which is a logarithm or the parameter itself.
+    fn estimate(
+        &self,
+        free: &Free,
+        values: &[f64],
+        error: Option<f64>,
+        quantile: Option<f64>,
+    ) -> Estimate {
+        let (value, is_logarithmic) = (values[free.index], self.is_logarithmic(free));
+        let standard_error = error.map(|e| if is_logarithmic { e * value } else { e });
+        let reach = error.zip(quantile).map(|(error, quantile)| error * quantile);
+        Estimate {
+            index: free.index,
+            key: self.parameter(free.index).key,
+            value,
+            standard_error,
+            error_of_data: standard_error,
+            interval: reach.map(|reach| match is_logarithmic {
+                true => (value * (-reach).exp(), value * reach.exp()),
+                false => (value - reach, value + reach),
+            }),
+            is_at_bound: false,
+        }
+    }
+
     /// Returns the fit with the values of a minimum.
     fn at_minimum(
         &self,
@@ -167,22 +192,9 @@ impl Problem<'_> {
         let quantile = variance.map(|_| quantile(confidence, (!is_known).then_some(freedom)));
         let error = |j: usize| variance.map(|variance| (variance * inverse[(j, j)]).sqrt());
         let estimates = self.free.iter().enumerate().map(|(j, free)| {
-            let value = values[free.index];
-            let reach = error(j).zip(quantile).map(|(error, quantile)| error * quantile);
             let (low, high) = bounds[j];
-            let is_logarithmic = self.is_logarithmic(free);
-            Estimate {
-                index: free.index,
-                key: self.parameter(free.index).key,
-                value,
-                standard_error: error(j).map(|e| if is_logarithmic { e * value } else { e }),
-                error_of_data: error(j).map(|e| if is_logarithmic { e * value } else { e }),
-                interval: reach.map(|reach| match is_logarithmic {
-                    true => (value * (-reach).exp(), value * reach.exp()),
-                    false => (value - reach, value + reach),
-                }),
-                is_at_bound: (theta[j] - low).min(high - theta[j]) < 1e-6,
-            }
+            let is_at_bound = (theta[j] - low).min(high - theta[j]) < 1e-6;
+            Estimate { is_at_bound, ..self.estimate(free, &values, error(j), quantile) }
         });
         let correlation = |i: usize, j: usize| {
             if i == j { 1.0 } else { inverse[(i, j)] / (inverse[(i, i)] * inverse[(j, j)]).sqrt() }

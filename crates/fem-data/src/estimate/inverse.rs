@@ -5,7 +5,7 @@
 //! the rate that matches the contact time, and less on both sides of it.
 
 use fem_laws::bisection::falling_zero;
-use fem_laws::{MIN_RESTITUTION, ParameterRole};
+use fem_laws::{LawParameter, MIN_RESTITUTION, ParameterRole};
 
 use crate::estimate::error::FitError;
 use crate::estimate::model::Model;
@@ -29,6 +29,17 @@ const JUMP: f64 = 1e-6;
 /// Number of steps over the limits of a plain number.
 const SEARCH_STEPS: f64 = 60.0;
 
+/// Returns the range that is scanned: decades around the natural size, or the limits of a plain number.
+fn scanned(parameter: &LawParameter) -> (f64, f64) {
+    match parameter.role {
+        ParameterRole::Number => parameter.limits,
+        ParameterRole::Rate => (-DECADES_OF_A_RATE, DECADES_OF_A_RATE),
+        // Bodies stronger than Hertz' peak pressure do not flow.
+        ParameterRole::Strength => (-DECADES, 0.0),
+        _ => (-DECADES, DECADES),
+    }
+}
+
 /// Returns all values of the parameter of an index that give `restitution` at `speed`, m/s. The other
 /// parameters have the given `values`.
 ///
@@ -49,13 +60,7 @@ pub fn invert(
     let size = model.natural_size(parameter, values, speed)?;
     let is_number = parameter.role == ParameterRole::Number;
     let value_at = |theta: f64| if is_number { theta } else { size * 10f64.powf(theta) };
-    let (low, high) = match parameter.role {
-        ParameterRole::Number => parameter.limits,
-        ParameterRole::Rate => (-DECADES_OF_A_RATE, DECADES_OF_A_RATE),
-        // Bodies stronger than Hertz' peak pressure do not flow.
-        ParameterRole::Strength => (-DECADES, 0.0),
-        _ => (-DECADES, DECADES),
-    };
+    let (low, high) = scanned(parameter);
     let excess = |theta: f64| {
         let mut all = values.to_vec();
         all[index] = value_at(theta);
@@ -83,9 +88,8 @@ pub fn invert(
             let signed = |theta: f64| excess(theta).map_or(-1.0, |excess| sign * excess);
             let found = falling_zero(before, theta, signed);
             // A law may jump over the restitution.
-            if excess(found).is_ok_and(|excess| excess.abs() < JUMP) {
-                solutions.push(value_at(found));
-            }
+            let is_met = excess(found).is_ok_and(|excess| excess.abs() < JUMP);
+            solutions.extend(is_met.then(|| value_at(found)));
         }
         previous = Some((theta, here));
         // More damping leaves a smaller restitution, and its creep takes long to compute.

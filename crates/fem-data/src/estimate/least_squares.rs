@@ -177,6 +177,9 @@ pub fn covariance(slopes: &DMatrix<f64>, variance: f64) -> Option<DMatrix<f64>> 
     Some(DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] * variance / norms[i] / norms[j]))
 }
 
+/// Confidence level of intervals that nobody asks for at another one: that of two standard uncertainties.
+pub const CONFIDENCE: f64 = 0.95;
+
 /// Returns the quantile of the two-sided interval of a confidence level, such as 0.95: that of Student's distribution if the error is
 /// the scatter of a fit with these degrees of freedom, else that of the normal distribution.
 pub fn quantile(confidence: f64, freedom: Option<f64>) -> f64 {

@@ -51,7 +51,7 @@ pub use estimates::{Estimate, Fit};
 pub use inputs::{InputPart, SPEED};
 pub use inverse::{Inversion, invert};
 pub use least_squares::{
-    Accuracy, Residuals, SumOfSquares, covariance, jacobian, minimise, quantile,
+    Accuracy, CONFIDENCE, Residuals, SumOfSquares, covariance, jacobian, minimise, quantile,
 };
 pub use model::{Model, Outcome};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};

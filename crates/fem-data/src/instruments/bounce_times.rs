@@ -108,7 +108,6 @@ impl Instants {
             let is_it = |column: &usize| is_numbered(&columns.header()[*column], names);
             (0..columns.header().len()).filter(is_it).collect()
         };
-        let notes = columns.left_out().to_vec();
         let (time, interval) = (columns.find(&TIMES)?, columns.find(&INTERVALS)?);
         let numbers = numbered(&NUMBERED);
         if time.is_none() && interval.is_none() && !numbers.is_empty() {
@@ -125,29 +124,15 @@ impl Instants {
             _ => None,
         };
         if let Some(column) = intervals {
-            let flights = columns.numbers(column, [0, 0, 1])?;
-            let known = flights.values.iter().copied().filter(|it| *it > 0.0);
-            let end = known.scan(0.0, |end, flight| {
-                *end += flight;
-                Some(*end)
-            });
-            return Ok(Self {
-                name: columns.name().to_string(),
-                values: std::iter::once(0.0).chain(end).collect(),
-                resolution: flights.resolution,
-                notes,
-                ..Self::default()
-            });
+            return Self::of_intervals(columns, column);
         }
         let column = match (time, columns.find(&EVENTS)?) {
             (Some(column), _) | (None, Some(column)) => column,
             _ => columns.require(&TIMES, "time_s or time_ms")?,
         };
         let times = columns.numbers(column, [0, 0, 1])?;
-        let uncertainties = match columns.find(&TIME_UNCERTAINTIES)? {
-            Some(column) => Some(columns.numbers(column, [0, 0, 1])?.values),
-            None => None,
-        };
+        let uncertainties = columns.find(&TIME_UNCERTAINTIES)?;
+        let uncertainties = uncertainties.map(|column| columns.numbers(column, [0, 0, 1]));
         let is_known: Vec<bool> = times.values.iter().map(|time| time.is_finite()).collect();
         let kept = |values: Vec<f64>| -> Vec<f64> {
             let known = values.into_iter().zip(&is_known).filter(|(_, known)| **known);
@@ -158,10 +143,10 @@ impl Instants {
             name: columns.name().to_string(),
             lines: lines.map(|row| columns.line(row)).collect(),
             values: kept(times.values),
-            uncertainties: uncertainties.map(kept),
+            uncertainties: uncertainties.transpose()?.map(|it| kept(it.values)),
             resolution: times.resolution,
             starts: Vec::new(),
-            notes,
+            notes: columns.left_out().to_vec(),
         };
         let values = &instants.values;
         if let Some(k) = (1..values.len()).find(|k| values[*k] <= values[k - 1]) {
@@ -177,6 +162,23 @@ impl Instants {
             return Err(instants.fault(k, "the uncertainty of the instant").with_help(help));
         }
         Ok(instants)
+    }
+
+    /// Reads the flights of one drop from a column of their durations.
+    fn of_intervals(columns: &Table, column: usize) -> Result<Self, DataError> {
+        let flights = columns.numbers(column, [0, 0, 1])?;
+        let known = flights.values.iter().copied().filter(|it| *it > 0.0);
+        let end = known.scan(0.0, |end, flight| {
+            *end += flight;
+            Some(*end)
+        });
+        Ok(Self {
+            name: columns.name().to_string(),
+            values: std::iter::once(0.0).chain(end).collect(),
+            resolution: flights.resolution,
+            notes: columns.left_out().to_vec(),
+            ..Self::default()
+        })
     }
 
     /// Reads drops side by side, or one drop in a row; those that begin before the end of the last one follow it.
@@ -287,21 +289,7 @@ impl BounceTimes {
         let mut found_impacts: Vec<(Impact, Errors)> =
             speeds.first(&instants, rig).chain(speeds.others()).collect();
         found_impacts.sort_by(|a, b| a.0.time.total_cmp(&b.0.time));
-        // No ball gains energy: the instant of such an impact is wrong, and so are the flights on both sides of it.
-        let wrong: Vec<f64> = found_impacts
-            .iter()
-            .filter_map(|(impact, _)| {
-                let reason = impact.impossible()?;
-                warnings.push(format!("the impact at {:.4} s is left out: {reason}", impact.time));
-                Some(impact.time)
-            })
-            .collect();
-        let stands_on =
-            |errors: &Errors| errors.times(&instants.values).any(|time| wrong.contains(&time));
-        if !found_impacts.iter().all(|(_, errors)| stands_on(errors)) {
-            found_impacts.retain(|(_, errors)| !stands_on(errors));
-        }
-        found_impacts.retain(|(impact, _)| impact.impossible().is_none());
+        warnings.extend(leave_impossible_out(&mut found_impacts, &instants.values));
         let (mut impacts, errors): (Vec<Impact>, Vec<Errors>) = found_impacts.into_iter().unzip();
         let last_drop = drops(&spans).last().map_or(0, |drop| drop[0].from);
         let drop = speeds.drop(rig);
@@ -566,4 +554,17 @@ fn to_rest(
     let spread = [of_first, of_second, rest.uncertainty];
     let uncertainty = slopes.iter().zip(spread).fold(0.0f64, |sum, (a, b)| sum.hypot(a * b));
     Ok(Measured { value: e, uncertainty })
+}
+
+/// Removes impacts in which the ball gains energy, and those of the flights on both sides of their wrong instants as far as others
+/// remain. Returns what is left out.
+fn leave_impossible_out(found: &mut Vec<(Impact, Errors)>, instants: &[f64]) -> Vec<String> {
+    let impossible = found.iter().filter_map(|(impact, _)| Some((impact.time, impact.left_out()?)));
+    let (wrong, warnings): (Vec<f64>, Vec<String>) = impossible.unzip();
+    let stands_on = |errors: &Errors| errors.times(instants).any(|time| wrong.contains(&time));
+    if !found.iter().all(|(_, errors)| stands_on(errors)) {
+        found.retain(|(_, errors)| !stands_on(errors));
+    }
+    found.retain(|(impact, _)| impact.impossible().is_none());
+    warnings
 }

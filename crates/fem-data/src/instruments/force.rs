@@ -194,33 +194,16 @@ impl ForceRecord {
         let gravity = rig.gravity();
         let factor = rig.sensor_mass.map_or(1.0, |sensor| mass.value / (mass.value - sensor.value));
         let of_calibration = rig.force_uncertainty.unwrap_or(0.0);
-        let first = match (rig.speed, rig.drop_height) {
-            (Some(speed), _) => Some(speed),
-            (None, Some(height)) => {
-                rig.flights().landing_after(height.value).map(|[own, more]| Measured {
-                    value: own,
-                    uncertainty: (0.5 * own * height.uncertainty / height.value)
-                        .hypot(0.5 * own * gravity.uncertainty / gravity.value)
-                        .hypot(more - own),
-                })
-            }
-            _ => None,
-        };
+        let first = first_speed(rig);
+        let step = self.samples.step();
         let mut impacts = Vec::new();
         // End of the pulse before, and the speed that its impulse gives the body.
         let mut before: Option<(f64, Option<f64>)> = None;
         for (k, pulse) in self.pulses.iter().enumerate() {
             let at = format!("the pulse at {:.4} s", pulse.time_s);
             let contact = pulse.contact_time().unwrap_or(0.0);
-            let flight = before.and_then(|(end, left)| {
-                let [own, more] = rig.flights().lasting(pulse.time_s - end)?;
-                // A speed by the impulse that does not fit the flight begins another drop.
-                let fits = left.is_none_or(|left| (own.launch / left - 1.0).abs() < OTHER_DROP);
-                let uncertainty = (gravity.uncertainty / gravity.value * own.landing)
-                    .hypot(more.landing - own.landing)
-                    .hypot(own.landing_slope * self.samples.step());
-                fits.then_some(Measured { value: own.landing, uncertainty })
-            });
+            let flight = before
+                .and_then(|(end, left)| speed_after_flight(rig, pulse.time_s - end, left, step));
             let speed = if k == 0 { first } else { flight.or(first) };
             before = Some((pulse.time_s + contact, None));
             if pulse.is_clipped {
@@ -270,6 +253,31 @@ impl ForceRecord {
             "pulses": self.pulses,
         })
     }
+}
+
+/// Returns the speed before the first pulse: the given one, or that of the drop.
+fn first_speed(rig: &Rig) -> Option<Measured> {
+    if rig.speed.is_some() {
+        return rig.speed;
+    }
+    let (height, gravity) = (rig.drop_height?, rig.gravity());
+    let [own, more] = rig.flights().landing_after(height.value)?;
+    let uncertainty = (0.5 * own * height.uncertainty / height.value)
+        .hypot(0.5 * own * gravity.uncertainty / gravity.value)
+        .hypot(more - own);
+    Some(Measured { value: own, uncertainty })
+}
+
+/// Returns the speed after a flight that lasts a time (s) between samples of a step (s). One whose launch does not fit the speed that the
+/// last impulse has `left` begins another drop.
+fn speed_after_flight(rig: &Rig, lasts: f64, left: Option<f64>, step: f64) -> Option<Measured> {
+    let gravity = rig.gravity();
+    let [own, more] = rig.flights().lasting(lasts)?;
+    let fits = left.is_none_or(|left| (own.launch / left - 1.0).abs() < OTHER_DROP);
+    let uncertainty = (gravity.uncertainty / gravity.value * own.landing)
+        .hypot(more.landing - own.landing)
+        .hypot(own.landing_slope * step);
+    fits.then_some(Measured { value: own.landing, uncertainty })
 }
 
 impl Samples {
@@ -374,9 +382,8 @@ fn pulse(samples: &Samples, spans: &[[usize; 2]], k: usize, noise: f64) -> Pulse
         noise * whole * (1.0 / n + (centre - time).powi(2) / (n * square.max(1e-300))).sqrt();
     let of_sampling = SAMPLING * (length as f64).powf(-2.5) * impulse;
     let crossing = |level: f64, inside: usize, outside: usize| {
-        let [a, b] = [value(inside), value(outside)];
-        let share = ((a - level) / (a - b)).clamp(0.0, 1.0);
-        t[inside] + share * (t[outside] - t[inside])
+        let share = (value(inside) - level) / (value(inside) - value(outside));
+        t[inside] + share.clamp(0.0, 1.0) * (t[outside] - t[inside])
     };
     let lasts = |share: f64| {
         let level = share * peak;

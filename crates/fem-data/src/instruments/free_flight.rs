@@ -8,7 +8,7 @@
 //! ```
 //!
 //! In vacuum a = 0 and u = w = gT/2. In air, drag, buoyancy and added mass act on a sphere of diameter D and density ρ,
-//! with β = `AIR_DENSITY`/ρ: g falls by the factor (1 − β)/(1 + β/2), and
+//! with β = ρ_air/ρ: g falls by the factor (1 − β)/(1 + β/2), and
 //!
 //! ```math
 //! a(v) = \frac{3}{4} \frac{\beta}{1 + \beta/2} \frac{C_D v^2}{D}, \qquad
@@ -18,10 +18,16 @@
 //! Drag coefficient of a smooth sphere: Clift & Gauvin, *Proc. Chemeca 70* (1970) 14–28, for Re < 3·10⁵. The wind, the spin
 //! and the unsteadiness of the wake are neglected.
 
-/// Density of dry air at 20 °C and 101 325 Pa, kg/m³.
-pub(super) const AIR_DENSITY: f64 = 1.204;
-/// Viscosity of air at 20 °C, Pa·s.
-const AIR_VISCOSITY: f64 = 1.81e-5;
+/// A gas through which a ball flies.
+pub(super) struct Gas {
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Viscosity, Pa·s.
+    pub viscosity: f64,
+}
+
+/// Dry air at 20 °C and 101 325 Pa.
+pub(super) const AIR: Gas = Gas { density: 1.204, viscosity: 1.81e-5 };
 /// Intervals of the integrals over the speed (Simpson's rule).
 const INTERVALS: usize = 48;
 /// Step of [`Departure`], s: the midpoint rule is accurate to 1e-7 of the height.
@@ -85,10 +91,10 @@ impl FreeFlight {
     /// Creates flights of a sphere in air by its diameter (m) and density (kg/m³). `drag_factor` multiplies the drag
     /// coefficient.
     pub fn in_air(gravity: f64, diameter: f64, density: f64, drag_factor: f64) -> Self {
-        let ratio = AIR_DENSITY / density;
+        let ratio = AIR.density / density;
         let inertia = 1.0 + 0.5 * ratio;
         let drag = 0.75 * drag_factor * ratio / (inertia * diameter);
-        let reynolds = AIR_DENSITY * diameter / AIR_VISCOSITY;
+        let reynolds = AIR.density * diameter / AIR.viscosity;
         Self { gravity: gravity * (1.0 - ratio) / inertia, air: Some(Air { drag, reynolds }) }
     }
 

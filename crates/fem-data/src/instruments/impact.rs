@@ -53,6 +53,12 @@ impl Impact {
         (mean > 1.0).then(warning)
     }
 
+    /// Returns a warning if no collision has this restitution.
+    pub(super) fn left_out(&self) -> Option<String> {
+        let reason = self.impossible()?;
+        Some(format!("the impact at {:.4} s is left out: {reason}", self.time))
+    }
+
     /// Returns why no collision has this restitution, if its uncertainty does not explain it.
     pub(super) fn impossible(&self) -> Option<String> {
         let Measured { value, uncertainty } = self.restitution;

@@ -8,7 +8,7 @@
 //!          crate::table   └─ force ────────┘
 //! rig ──── free_flight, with drag ── flight_speeds, of bounce_times
 //! series ─ drops, missing instants, scatter ── bad_instants, without which the others fit
-//! cradle_trials ─ cradle: angles of a Newton's cradle
+//! cradle: angles of a Newton's cradle
 //! ```
 //!
 //! A record that does not support a restitution is an error that says why. Nothing is opened here: callers pass texts and
@@ -17,7 +17,6 @@
 mod bad_instants;
 mod bounce_times;
 pub mod cradle;
-mod cradle_trials;
 mod flight_speeds;
 mod force;
 mod free_flight;
@@ -31,7 +30,7 @@ mod track;
 mod wav;
 
 pub use bounce_times::{BounceTimes, Instants, TimeUncertaintySource};
-pub use cradle_trials::cradle_trials;
+pub use cradle::cradle_trials;
 pub use force::{ForceRecord, Pulse, Samples};
 pub use free_flight::{Flight, FreeFlight};
 pub use impact::{IMPACT_COLUMNS, Impact};

@@ -5,7 +5,7 @@ use fem_material::engineering::number;
 use crate::instruments::cradle::{Measured, STANDARD_GRAVITY};
 use crate::table::DataError;
 
-use super::free_flight::{AIR_DENSITY, Departure, Flight, FreeFlight};
+use super::free_flight::{AIR, Departure, Flight, FreeFlight};
 
 /// Relative standard uncertainty of the drag coefficient of a smooth sphere at rest in its wake.
 const DRAG_UNCERTAINTY: f64 = 0.1;
@@ -95,10 +95,11 @@ impl Rig {
             let help = "give both, such as --diameter '10 mm' --density '7800 kg/m^3', or neither";
             return Err(DataError::new(name, message).with_help(help));
         }
-        if let Some(density) = self.density.map(|it| it.value).filter(|it| *it <= AIR_DENSITY) {
+        if let Some(density) = self.density.map(|it| it.value).filter(|it| *it <= AIR.density) {
             let message = format!(
-                "a ball of {} kg/m³ does not fall in air, which has {AIR_DENSITY} kg/m³",
-                number(density, 5)
+                "a ball of {} kg/m³ does not fall in air, which has {} kg/m³",
+                number(density, 5),
+                AIR.density
             );
             let help = "--density is that of the ball, such as '7800 kg/m^3'";
             return Err(DataError::new(name, message).with_help(help));

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use nalgebra::DVector;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use crate::estimate::{median, quantile};
+use crate::estimate::{CONFIDENCE, median, quantile};
 
 /// A flight between two instants of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +40,6 @@ pub(super) const MAX_TERMS: usize = 5;
 const FEWEST_FREEDOM: f64 = 2.0;
 /// Steps of the fit to the durations, from their logarithms.
 const NEWTON_STEPS: usize = 4;
-/// Confidence of the interval that two standard uncertainties are.
-const CONFIDENCE: f64 = 0.95;
 /// Probability below which a fit is not better by chance: with one more term, or without a bad instant. Of 2,600 records with one to
 /// three bad instants 15 have a restitution that is off by more than three bars.
 pub(super) const CHANCE: f64 = 1e-3;

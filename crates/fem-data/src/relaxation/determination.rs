@@ -12,11 +12,9 @@ use nalgebra::Matrix2;
 use super::joint::Joint;
 use super::superposition::DENSITY;
 
-/// Distance by which blocks are moved, decades.
+/// Distance by which blocks are moved, decades, and the standard deviations by which the misfit must grow to show the move: an
+/// uncertainty is then at most a decade.
 const REACH: f64 = 3.0;
-/// The least increase of the misfit, in squares of the scatter of a modulus, that shows a move: three standard deviations, so that an
-/// uncertainty is at most a decade.
-const LEAST_INCREASE: f64 = 9.0;
 
 impl Joint<'_> {
     /// Returns whether the moduli determine the shift of each block but the reference.
@@ -29,7 +27,7 @@ impl Joint<'_> {
             for k in (0..n).filter(|k| moved(*k)) {
                 shifts[k] += decades * std::f64::consts::LN_10;
             }
-            misfit(&shifts).0 - own > LEAST_INCREASE * own / freedom
+            misfit(&shifts).0 - own > REACH * REACH * own / freedom
         };
         let is_colder = |k: usize| self.moving[k] < self.reference;
         let n_colder = (0..n).filter(|k| is_colder(*k)).count();

@@ -82,46 +82,26 @@ const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
 /// Exponents of a pressure.
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
-/// Names of units that the units of a case do not have, with their endings.
-const OTHER_UNITS: [(&str, &str); 33] = [
-    ("rad/s", "_rad_s"),
-    ("rad s^-1", "_rad_s"),
-    ("rad·s⁻¹", "_rad_s"),
-    ("1/s", "_per_s"),
-    ("s^-1", "_per_s"),
-    ("s⁻¹", "_per_s"),
-    ("deg", "_deg"),
-    ("°", "_deg"),
-    ("rad", "_rad"),
-    ("C", "_degc"),
-    ("°C", "_degc"),
-    ("º C", "_degc"),
-    ("ºC", "_degc"),
-    ("degC", "_degc"),
-    ("K", "_kelvin"),
-    ("°F", "_degf"),
-    ("degF", "_degf"),
-    ("F", "_degf"),
-    ("psi", "_psi"),
-    ("ksi", "_ksi"),
-    ("dyn/cm^2", "_dyn_cm2"),
-    ("dyn/cm²", "_dyn_cm2"),
-    ("dyn/cm2", "_dyn_cm2"),
-    ("dyne/cm^2", "_dyn_cm2"),
-    ("dyne/cm²", "_dyn_cm2"),
-    ("dyne/cm2", "_dyn_cm2"),
-    ("hr", "_hours"),
-    ("px", "_px"),
-    ("pixel", "_px"),
-    ("pixels", "_px"),
-    ("second", "_s"),
-    ("seconds", "_s"),
-    ("sec", "_s"),
+/// Endings of names with the units that the units of a case do not have.
+const OTHER_UNITS: [(&str, &[&str]); 13] = [
+    ("_rad_s", &["rad/s", "rad s^-1", "rad·s⁻¹"]),
+    ("_per_s", &["1/s", "s^-1", "s⁻¹"]),
+    ("_deg", &["deg", "°"]),
+    ("_rad", &["rad"]),
+    ("_degc", &["C", "°C", "º C", "ºC", "degC"]),
+    ("_kelvin", &["K"]),
+    ("_degf", &["°F", "degF", "F"]),
+    ("_psi", &["psi"]),
+    ("_ksi", &["ksi"]),
+    ("_dyn_cm2", &["dyn/cm^2", "dyn/cm²", "dyn/cm2", "dyne/cm^2", "dyne/cm²", "dyne/cm2"]),
+    ("_hours", &["hr"]),
+    ("_px", &["px", "pixel", "pixels"]),
+    ("_s", &["second", "seconds", "sec"]),
 ];
 
 /// Returns the ending of a unit of an angle, a rate of phase or a temperature.
 pub(super) fn other_ending(unit: &str) -> Option<&'static str> {
-    OTHER_UNITS.iter().find(|(name, _)| *name == unit).map(|(_, ending)| *ending)
+    OTHER_UNITS.iter().find(|(_, names)| names.contains(&unit)).map(|(ending, _)| *ending)
 }
 
 /// Returns the unit in which a column's name ends.

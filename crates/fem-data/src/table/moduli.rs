@@ -217,6 +217,22 @@ const COLUMNS: &str = "a table has a frequency [Hz] or omega [rad/s], and E' [MP
 /// The units that a table may have.
 const UNITS: &str = "units are Hz, kHz, rad/s; s, ms, min, h; Pa, kPa, MPa, GPa, psi, ksi, dyn/cm^2, N/mm^2; °C, K, °F";
 
+/// Returns the error that a table has no column of a quantity, or one of an unknown unit, which keeps the brackets in its name.
+fn missing_column(table: &Table, what: &str, has_frequency: bool) -> DataError {
+    let is_of_unknown_unit = |header: &&String| {
+        header.ends_with([')', ']'])
+            && Role::of(before_brackets(header), has_frequency).is_some()
+            && Role::of(header, has_frequency).is_none()
+    };
+    if let Some(header) = table.header().iter().find(is_of_unknown_unit) {
+        let message = format!("the unit of the column {header} is not known");
+        return table.header_fault(message).with_help(UNITS);
+    }
+    let found = table.header().join(", ");
+    let message = format!("there is no column of {what}; found are {found}");
+    table.header_fault(message).with_help(COLUMNS)
+}
+
 /// The columns that the rows of a table are read from, each with its role.
 struct Columns<'a> {
     table: &'a Table,
@@ -240,21 +256,7 @@ impl<'a> Columns<'a> {
             let found = table.only((0..roles.len()).filter(fits))?;
             Ok::<_, DataError>(found.and_then(|column| Some((column, roles[column]?))))
         };
-        let missing = |what: &str| {
-            // A column of an unknown unit keeps the brackets in its name.
-            let is_of_unknown_unit = |header: &&String| {
-                header.ends_with([')', ']'])
-                    && Role::of(before_brackets(header), has_frequency).is_some()
-                    && role(header).is_none()
-            };
-            if let Some(header) = table.header().iter().find(is_of_unknown_unit) {
-                let message = format!("the unit of the column {header} is not known");
-                return table.header_fault(message).with_help(UNITS);
-            }
-            let found = table.header().join(", ");
-            let message = format!("there is no column of {what}; found are {found}");
-            table.header_fault(message).with_help(COLUMNS)
-        };
+        let missing = |what: &str| missing_column(table, what, has_frequency);
         let known = (0..roles.len()).filter_map(|column| Some((column, roles[column]?)));
         let mut abscissae: Vec<_> = known.filter(|(_, role)| role.is_abscissa()).collect();
         if let [first, second] = abscissae[..]

@@ -210,15 +210,8 @@ impl Ledger {
             let (body, forces) = (&bodies[side], &scratch.forces[side]);
             balance_body(body, (state.time, time_step), &state.bodies[side], forces)
         });
-        let motions = state.motions(model);
         let mut accounts = energies_of_parts(model, state);
-        let mut held_before = 0.0;
-        for (account, energy) in self.inherited.entries() {
-            match account.side() {
-                BalanceSide::Held => held_before += energy,
-                _ => accounts.energies.add(account, -energy),
-            }
-        }
+        let held_before = self.take_inherited_out(&mut accounts.energies);
         model.contact().add_energies(state.contact_history(model), &mut accounts);
         self.losses.advance(state.time - self.last_time, accounts.powers);
         self.last_time = state.time;
@@ -247,7 +240,7 @@ impl Ledger {
 
         let history = state.contact_history(model);
         let (contact_radius, centre_pressure) =
-            model.contact().radius_and_pressure(&motions, history);
+            model.contact().radius_and_pressure(&state.motions(model), history);
         HistoryRow {
             time: state.time,
             contact_force: contact.force,
@@ -260,6 +253,18 @@ impl Ledger {
             vibration: [lower.vibration, upper.vibration],
             tangential: None,
         }
+    }
+
+    /// Takes what bodies dissipated before first touch out of these energies, and returns what they stored then, J.
+    fn take_inherited_out(&self, energies: &mut EnergyLedger) -> f64 {
+        let mut held = 0.0;
+        for (account, energy) in self.inherited.entries() {
+            match account.side() {
+                BalanceSide::Held => held += energy,
+                _ => energies.add(account, -energy),
+            }
+        }
+        held
     }
 
     /// Checks the energy of a row.

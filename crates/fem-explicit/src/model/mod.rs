@@ -102,13 +102,11 @@ impl ExplicitBodies {
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
-        let within = parts.finite_strain_within;
-        let of = |law: HyperelasticLaw| FiniteStrainChoice { law, within };
+        let of = |law| FiniteStrainChoice { law, within: parts.finite_strain_within };
         let [law_of_lower, law_of_upper] = parts.finite_strain.map(|law| law.map(of));
-        let massless = [0, 1].map(|side: usize| contact.massless_nodes(side));
         let mut movable = [
-            UnscaledBody::new(lower, law_of_lower, forces_on_lower, massless[0])?,
-            UnscaledBody::new(upper, law_of_upper, forces_on_upper, massless[1])?,
+            UnscaledBody::new(lower, law_of_lower, forces_on_lower, contact.massless_nodes(0))?,
+            UnscaledBody::new(upper, law_of_upper, forces_on_upper, contact.massless_nodes(1))?,
         ];
         for (side, body) in movable.iter_mut().enumerate() {
             if let Some(body) = body {
@@ -116,18 +114,7 @@ impl ExplicitBodies {
                 contact.add_damping_bound(side, body.damping_mut());
             }
         }
-        let smallest = |step: &dyn Fn(&UnscaledBody) -> f64| {
-            movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
-        };
-        let plain = smallest(&|body| body.bound().critical_time_step());
-        let masses = movable.each_ref().map(|body| body.as_ref().and_then(UnscaledBody::mass));
-        let lightest = masses.into_iter().flatten().reduce(f64::min).unwrap_or_default();
-        let critical = movable.iter().zip(settings.mass_times).filter_map(|(body, times)| {
-            let body = body.as_ref()?;
-            let whole = body.mass().unwrap_or(f64::INFINITY).min(times * lightest);
-            Some(body.scaled_time_step(settings.mass_scaling * whole))
-        });
-        let critical = critical.fold(f64::INFINITY, f64::min);
+        let [plain, critical] = critical_time_steps(&movable, settings);
         let time_step = settings.step_factor * critical;
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(ModelError::NoStep { time_step });
@@ -303,4 +290,19 @@ impl ExplicitBodies {
     pub fn n_elements(&self) -> usize {
         self.bodies.iter().map(Body::n_elements).sum()
     }
+}
+
+/// Returns the critical time step (s) of both bodies without and with mass scaling; a body has at most the mass that the lightest body
+/// would have as a share of its own.
+fn critical_time_steps(bodies: &[Option<UnscaledBody>; 2], settings: &Settings) -> [f64; 2] {
+    let movable =
+        || bodies.iter().zip(settings.mass_times).filter_map(|(it, n)| Some((it.as_ref()?, n)));
+    let lightest = movable().filter_map(|(body, _)| body.mass()).reduce(f64::min);
+    let lightest = lightest.unwrap_or_default();
+    let plain = movable().map(|(body, _)| body.bound().critical_time_step());
+    let scaled = movable().map(|(body, times)| {
+        let whole = body.mass().unwrap_or(f64::INFINITY).min(times * lightest);
+        body.scaled_time_step(settings.mass_scaling * whole)
+    });
+    [plain.fold(f64::INFINITY, f64::min), scaled.fold(f64::INFINITY, f64::min)]
 }

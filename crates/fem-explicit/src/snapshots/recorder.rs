@@ -106,52 +106,24 @@ impl Recorder {
             take(&mut snapshot, model, state, forces, now.approach, label);
             snapshot
         };
-        let wants_last = match &self.request {
-            // Bodies that stay together have no last contact.
-            SnapshotRequest::Labels(labels) => {
-                labels.contains(&SnapshotInstant::LastContact) && !now.stays_together
-            }
-            SnapshotRequest::Count(_) => true,
-            SnapshotRequest::Times(_) => false,
-        };
         if now.is_closed {
             // In contact again: the kept state was not the last contact.
             pool.extend(self.last_contact.take());
         }
-        if now.is_last_contact && wants_last {
+        if now.is_last_contact && self.wants_last(now) {
             self.last_contact = Some(copy(pool.pop(), Some(SnapshotInstant::LastContact)));
         }
         match &self.request {
-            SnapshotRequest::Labels(labels) => match self.max_approach {
-                None if now.is_closed && (now.approach_rate <= 0.0 || now.stays_together) => {
-                    self.max_approach = Some(now.approach);
-                    if labels.contains(&SnapshotInstant::Maximum) {
-                        self.maximum = Some(copy(None, Some(SnapshotInstant::Maximum)));
+            SnapshotRequest::Labels(_) => {
+                if let Some(label) = self.due_label(model, now, pool) {
+                    let snapshot = copy(pool.pop(), Some(label));
+                    match label {
+                        SnapshotInstant::Maximum => self.maximum = Some(snapshot),
+                        SnapshotInstant::MidSeparation => self.mid_separation = Some(snapshot),
+                        _ => self.kept.push(snapshot),
                     }
                 }
-                None if labels.contains(&SnapshotInstant::MidCompression)
-                    && now.approach >= self.next_candidate =>
-                {
-                    self.next_candidate = CANDIDATE_RATIO * now.approach;
-                    let half = 0.5 * now.approach / CANDIDATE_RATIO;
-                    let first = self.kept.iter().position(|candidate| candidate.approach >= half);
-                    let n_dropped = first.unwrap_or(self.kept.len());
-                    pool.extend(self.kept.drain(..n_dropped));
-                    let is_slowed = now.approach_rate <= NOT_SLOWED * model.approach().speed();
-                    if is_slowed || now.approach >= SURE_SHARE * self.expected_approach {
-                        let snapshot = copy(pool.pop(), Some(SnapshotInstant::MidCompression));
-                        self.kept.push(snapshot);
-                    }
-                }
-                Some(max_approach)
-                    if self.mid_separation.is_none()
-                        && now.approach <= 0.5 * max_approach
-                        && labels.contains(&SnapshotInstant::MidSeparation) =>
-                {
-                    self.mid_separation = Some(copy(None, Some(SnapshotInstant::MidSeparation)));
-                }
-                _ => {}
-            },
+            }
             SnapshotRequest::Count(n) => {
                 let due = self.kept.last().is_some_and(|last| {
                     now.is_closed && state.time >= last.time + self.spacing * (1.0 - 1e-9)
@@ -172,6 +144,48 @@ impl Recorder {
                     self.next_time += 1;
                 }
             }
+        }
+    }
+
+    /// Returns whether the last contact is asked for. Bodies that stay together have none.
+    fn wants_last(&self, now: Instant) -> bool {
+        match &self.request {
+            SnapshotRequest::Labels(labels) => {
+                labels.contains(&SnapshotInstant::LastContact) && !now.stays_together
+            }
+            SnapshotRequest::Count(_) => true,
+            SnapshotRequest::Times(_) => false,
+        }
+    }
+
+    /// Returns the label for which the present state is a snapshot, or a candidate for the middle of the compression. Candidates that
+    /// the approach has left behind are dropped.
+    fn due_label(
+        &mut self,
+        model: &ExplicitBodies,
+        now: Instant,
+        pool: &mut Vec<Snapshot>,
+    ) -> Option<SnapshotInstant> {
+        let SnapshotRequest::Labels(labels) = &self.request else { return None };
+        let wants = |label: SnapshotInstant| labels.contains(&label).then_some(label);
+        match self.max_approach {
+            None if now.is_closed && (now.approach_rate <= 0.0 || now.stays_together) => {
+                self.max_approach = Some(now.approach);
+                wants(SnapshotInstant::Maximum)
+            }
+            None if now.approach >= self.next_candidate => {
+                let label = wants(SnapshotInstant::MidCompression)?;
+                self.next_candidate = CANDIDATE_RATIO * now.approach;
+                let half = 0.5 * now.approach / CANDIDATE_RATIO;
+                let first = self.kept.iter().position(|candidate| candidate.approach >= half);
+                pool.extend(self.kept.drain(..first.unwrap_or(self.kept.len())));
+                let is_slowed = now.approach_rate <= NOT_SLOWED * model.approach().speed();
+                (is_slowed || now.approach >= SURE_SHARE * self.expected_approach).then_some(label)
+            }
+            Some(max) if self.mid_separation.is_none() && now.approach <= 0.5 * max => {
+                wants(SnapshotInstant::MidSeparation)
+            }
+            _ => None,
         }
     }
 

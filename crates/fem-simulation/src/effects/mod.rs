@@ -28,6 +28,7 @@ use crate::rejection::Rejection;
 
 pub(crate) use decision::effect_named;
 pub use decision::neglect_error::{EffectStatus, NeglectError};
+pub(crate) use decision::relevance::MACH_LIMIT;
 pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub(crate) use decision::simplified_scene::SimplifiedScene;
 pub use decision::simplified_scene::{Transformation, TransformedScene};
@@ -39,6 +40,7 @@ pub use decision::{
     PlateBending, RateDependence, RigidPartner, SurfaceSlip, TangentialCoupling, Vibration,
     Viscoelasticity,
 };
+pub(crate) use numerics::mass_scaling::MAX_MOVED_MASS;
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -18,7 +18,7 @@ use fem_collision::{Account, Approach, Collision, OutputRequest};
 use fem_material::PronySeries;
 use serde::Serialize;
 
-use super::reference_runs::ReferenceRuns;
+use super::reference_runs::{COARSER_ELEMENT_RATIOS, ReferenceRuns};
 use super::setting::Setting;
 use crate::simulation::Simulation;
 
@@ -28,8 +28,6 @@ const RELAXATION_TIME_OVER_CONTACT_TIME: f64 = 0.8;
 const MAX_DECAY: f64 = 8.0;
 /// ... unless even the undecayed ones were at most this share of the energy.
 const LITTLE_VIBRATION_ENERGY: f64 = 1e-5;
-/// Element size of that elastic run over that of the collision.
-const ELASTIC_RUN_ELEMENT_RATIO: f64 = 1.5;
 
 /// The loss of restitution of elastic bodies on the same mesh with the same settings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -99,7 +97,7 @@ fn elastic_run(
     let mut file = simulation.resolved_at(approach);
     file.effects.get_or_insert_default().viscoelasticity = Some(Switch::Off);
     file.output = Some(OutputTable { report: Some(false), ..OutputTable::default() });
-    Setting::ElementSize(ELASTIC_RUN_ELEMENT_RATIO * plan.contact_element_size).apply(&mut file);
+    Setting::ElementSize(COARSER_ELEMENT_RATIOS[1] * plan.contact_element_size).apply(&mut file);
     let case = Case::of(file).ok().filter(|_| plan.makes_meshes)?;
     let shared = simulation.shared().for_reference_runs();
     let elastic = Simulation::sharing(case, &shared).ok()?;

@@ -3,9 +3,7 @@
 use fem_case::Spot;
 use fem_collision::{Bounce, Collision, QuantityOfInterest};
 
-use super::calibration::{
-    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, PLATE, SAMPLED_PER_TOLERANCE,
-};
+use super::calibration::{CLOSED_FORM, Calibration, EXPLICIT, Reference, SAMPLED_PER_TOLERANCE};
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
 use super::reference_runs::{EstimatedCollision, ReferenceRuns, Values};
@@ -151,27 +149,21 @@ impl ErrorEstimator {
         let subject = &EstimatedCollision { simulation, approach: collision.approach, plan, size };
         let is_explicit = collision.element_updates.is_some();
         let needs_own = is_explicit && needs_own(simulation, collision);
-        match (is_explicit, plan.makes_meshes, needs_own) {
-            (true, false, true) => None,
-            (true, false, false) => Some((self.runs.mesh_file(subject, None, across)?, &EXPLICIT)),
-            (true, true, false) => Some((self.runs.condensed(subject)?.0, &EXPLICIT)),
-            // Elastic condensed bodies show nothing of the error of flow.
-            (true, true, true) if plan.estimate.flow.is_some() => {
-                Some((self.runs.coarser(subject, values)?, Calibration::of_flow(&plan.estimate)))
-            }
-            (true, true, true) => {
-                let own = self.runs.coarser(subject, values)?;
-                let condensed = self.runs.condensed(subject).map(|(errors, _)| errors);
-                let condensed = |k: usize| condensed.and_then(|condensed| condensed[k]);
-                let both = |k: usize| Some(own[k]? + condensed(k).unwrap_or(0.0));
-                let constants = if plan.estimate.bends { &PLATE } else { &COARSER_RUN };
-                Some((std::array::from_fn(both), constants))
-            }
-            (false, false, _) => {
-                Some((self.runs.mesh_file(subject, Some(values), across)?, &CONDENSED))
-            }
-            (false, true, _) => Some((self.runs.coarser(subject, values)?, &CONDENSED)),
+        let calibration = Calibration::of(&plan.estimate, is_explicit, needs_own);
+        if !plan.makes_meshes {
+            let known = (!is_explicit).then_some(values);
+            let errors = (!needs_own).then(|| self.runs.mesh_file(subject, known, across))??;
+            return Some((errors, calibration));
         }
+        let mut against = calibration.against.iter().map(|reference| match reference {
+            Reference::Condensed => self.runs.condensed(subject).map(|(errors, _)| errors),
+            Reference::Coarser => self.runs.coarser(subject, values),
+        });
+        let mut errors = against.next()??;
+        for more in against.flatten() {
+            errors = std::array::from_fn(|k| Some(errors[k]? + more[k].unwrap_or(0.0)));
+        }
+        Some((errors, calibration))
     }
 
     /// Returns the error of the recovered stress near the contact; `None` without a snapshot of the largest approach.
@@ -315,6 +307,7 @@ mod tests {
     fn error_bar_is_the_sum_of_its_documented_parts() {
         let calibration = Calibration {
             name: "",
+            against: &[],
             safety_factor: [2.0; 6],
             edge: [0.16; 6],
             edge_of_relaxed: [0.32; 6],

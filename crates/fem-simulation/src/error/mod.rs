@@ -54,6 +54,7 @@ pub use refinement::{ComputedCollision, RefinedBeforeRun, collide};
 pub use refinement_cost_bound::RefinementBound;
 pub use setting::Setting;
 pub use stress_error::StressError;
+pub use tolerance_warnings::MIN_ACROSS;
 pub(crate) use tolerance_warnings::{
     early_pressure_warning, tolerance_warning, unresolved_warning,
 };

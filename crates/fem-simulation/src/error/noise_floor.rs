@@ -6,10 +6,7 @@ use std::f64::consts::PI;
 
 use fem_collision::{Collision, MAX_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
-use super::calibration::{
-    CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER, RESTITUTION_PER_ROOT_SCATTER,
-    TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
-};
+use super::calibration::{CHATTER, CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, UNRESOLVED_ERROR};
 use crate::effects::MassScaling;
 use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
@@ -66,13 +63,8 @@ fn spikes_of_flow(simulation: &Simulation, collision: &Collision) -> Option<f64>
 /// Returns the error due to contact chatter.
 pub(super) fn of_chatter(collision: &Collision, quantity: QuantityOfInterest) -> f64 {
     let noise = noise(collision).unwrap_or(0.0);
-    match quantity {
-        QuantityOfInterest::Restitution => RESTITUTION_PER_ROOT_SCATTER * noise.sqrt(),
-        QuantityOfInterest::ContactTime => TIME_PER_ROOT_SCATTER * noise.sqrt(),
-        QuantityOfInterest::PeakForce | QuantityOfInterest::PeakPressure => noise,
-        QuantityOfInterest::MaxContactRadius => RADIUS_PER_SCATTER * noise,
-        QuantityOfInterest::MaxApproach => 0.0,
-    }
+    let [per_root, per_scatter] = CHATTER[quantity as usize];
+    per_root * noise.sqrt() + per_scatter * noise
 }
 
 /// Returns the scatter of the contact force from step to step over its peak, if it is too large.

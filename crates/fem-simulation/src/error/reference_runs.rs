@@ -17,8 +17,8 @@ use crate::simulation::Simulation;
 pub(super) type Values = [Option<f64>; 6];
 
 /// Element sizes of the coarser run of the model itself over those of the collision. The second is tried if the collision
-/// fails with the first.
-const COARSER_ELEMENT_RATIOS: [f64; 2] = [2.0, 1.5];
+/// fails with the first, and is that of an elastic run.
+pub(super) const COARSER_ELEMENT_RATIOS: [f64; 2] = [2.0, 1.5];
 /// Time of the coarser run of condensed bodies over that of the collision with its factorisation.
 pub const CONDENSED_REFERENCE_TIME: f64 = 0.25;
 /// Time steps of condensed reference runs of explicit elements over the elastic contact time, which give the

@@ -14,8 +14,8 @@ use crate::simulation::Simulation;
 
 /// Larger ratios of element sizes are not advised: the error there is not known.
 const MAX_RATIO: f64 = 100.0;
-/// Elements across the contact below which a mesh is reported as too coarse before the run.
-const MIN_ACROSS: f64 = 3.0;
+/// Elements across the contact below which a mesh does not resolve it.
+pub const MIN_ACROSS: f64 = 3.0;
 /// Characters of a warning that is read in one look.
 const MAX_LENGTH: usize = 230;
 /// Elements across the contact that are advised: most estimates are then below 1 %.
@@ -68,9 +68,7 @@ pub(crate) fn tolerance_warning(
 ) -> Option<String> {
     let plan = &simulation.setup().elements.as_ref()?.plan;
     let missed = missed(simulation, collision, errors);
-    let Some(miss) = missed.first() else {
-        return not_estimated(simulation, collision, errors);
-    };
+    let Some(miss) = missed.first() else { return not_estimated(simulation, collision, errors) };
     // Contact chatter has a warning of its own, and the plan warns before the run if no mesh is fine enough.
     let is_scatter = matches!(errors.not_refined, Some(NotRefined::Scatter(_)));
     if is_of_chatter(miss, collision) || (is_scatter && plan.is_out_of_reach) {
@@ -83,32 +81,47 @@ pub(crate) fn tolerance_warning(
         "write mesh.contact_element_size = \"{}\"{staggered}",
         length(plan.contact_element_size / finer)
     );
-    let mut cause = "the mesh";
-    let remedy = match &errors.not_refined {
+    match &errors.not_refined {
         Some(NotRefined::Scatter(scatter)) => {
-            let of_any_mesh = format!(", of which {} remains on any mesh", miss.printed(*scatter));
-            let text = format!("{}{of_any_mesh}: raise accuracy.tolerance", miss.described());
+            let text = format!(
+                "{}, of which {} remains on any mesh: raise accuracy.tolerance",
+                miss.described(),
+                miss.printed(*scatter)
+            );
             return Some(with_others(text, &missed));
         }
-        Some(NotRefined::Setting(setting)) => {
-            cause = setting.described();
-            format!("leave {} out, or ", setting.key())
-        }
-        _ if finer > MAX_RATIO => {
-            cause = "the mesh, and no mesh is known to be fine enough";
-            String::new()
-        }
-        Some(NotRefined::FromFile) => "use meshes that are finer at the contact, or ".to_string(),
-        Some(NotRefined::Gravity) => {
-            format!("with gravity the mesh is not refined automatically; {write}, or ")
-        }
-        Some(NotRefined::TooExpensive { updates: Some(updates) }) => {
+        Some(NotRefined::TooExpensive { updates: Some(updates) }) if finer <= MAX_RATIO => {
             let text = format!(
                 "{} because of the mesh, limited by its cost: write limits.element_updates = {:.0e}, or {write}",
                 miss.described(),
                 rounded_up(*updates)
             );
             return Some(with_others(text, &missed));
+        }
+        _ => {}
+    }
+    let (cause, remedy) = cause_and_remedy(errors.not_refined.as_ref(), finer, &write);
+    let text = format!("{} because of {cause}: {remedy}raise accuracy.tolerance", miss.described());
+    Some(with_others(text, &missed))
+}
+
+/// Returns the cause of an error of the mesh or of a setting, and what to do beside raising the tolerance; `write` says how to make the
+/// elements `finer` by a ratio.
+fn cause_and_remedy(
+    not_refined: Option<&NotRefined>,
+    finer: f64,
+    write: &str,
+) -> (&'static str, String) {
+    let remedy = match not_refined {
+        Some(NotRefined::Setting(setting)) => {
+            return (setting.described(), format!("leave {} out, or ", setting.key()));
+        }
+        _ if finer > MAX_RATIO => {
+            return ("the mesh, and no mesh is known to be fine enough", String::new());
+        }
+        Some(NotRefined::FromFile) => "use meshes that are finer at the contact, or ".to_string(),
+        Some(NotRefined::Gravity) => {
+            format!("with gravity the mesh is not refined automatically; {write}, or ")
         }
         Some(NotRefined::Stopped(why)) => format!("on a finer mesh {why}, or "),
         Some(NotRefined::Rejected(fault)) => match fault.key() {
@@ -117,12 +130,9 @@ pub(crate) fn tolerance_warning(
             }
             _ => format!("on a finer mesh {}; {write}, or ", fault.message()),
         },
-        None | Some(NotRefined::Given | NotRefined::TooExpensive { updates: None }) => {
-            format!("{write}, or ")
-        }
+        _ => format!("{write}, or "),
     };
-    let text = format!("{} because of {cause}: {remedy}raise accuracy.tolerance", miss.described());
-    Some(with_others(text, &missed))
+    ("the mesh", remedy)
 }
 
 /// Returns the advised element size for a contact radius (m), rounded down to two digits.

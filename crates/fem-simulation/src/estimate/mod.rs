@@ -24,8 +24,10 @@ use crate::rejection::Rejection;
 
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
 const MIN_MODULUS: f64 = 0.05;
-/// Loss of the moduli during the contact above which Ting's impact gives the effective moduli.
+/// Loss of the moduli during the contact above which Ting's impact gives the effective moduli, and viscosity stops the bodies.
 const LARGE_LOSS_OF_MODULI: f64 = 0.5;
+/// Contact radius over effective radius from which strains are large: they fall little up to the body's end.
+pub(crate) const LARGE_STRAIN: f64 = 0.1;
 
 /// Closed-form estimates of a collision, SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,6 +93,15 @@ impl Estimate {
     /// Those of [`Estimate::of`].
     pub(crate) fn of_variant(&self, scene: &Scene, speed: f64) -> Result<Self, LawError> {
         Self::with_known(scene, speed, self.impacts.clone())
+    }
+
+    /// Returns a variant of the scene in its regime at the speed of this estimate.
+    ///
+    /// # Errors
+    /// Those of [`Estimate::of`].
+    pub(crate) fn regime_of(&self, scene: Scene) -> Result<Regime, LawError> {
+        let estimate = self.of_variant(&scene, self.hertz.approach_speed())?;
+        Ok(Regime { scene, estimate })
     }
 
     fn with_known(scene: &Scene, speed: f64, impacts: KnownImpacts) -> Result<Self, LawError> {

@@ -11,13 +11,11 @@ use fem_case::Scene;
 use fem_collision::{Approach, OutputRequest, POST_CONTACT_FRACTION};
 use fem_laws::{Impact, LawError, StaticHertz};
 
-use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, duration_of, expected_duration};
 use crate::estimate::quasi_static::ting_of;
+use crate::estimate::{Estimate, LARGE_LOSS_OF_MODULI};
 use crate::rejection::Rejection;
 
-/// Loss of the moduli during the contact above which viscosity stops the bodies.
-const LOSS_OF_MODULI_OF_FLOW: f64 = 0.5;
 /// Contact radius over the smallest sphere's radius above which flowing spheres are rejected.
 const WIDEST_CONTACT_OVER_RADIUS: f64 = 0.3;
 /// Widening of the contact by relaxation below which the speed is the cause of a wide contact.
@@ -117,7 +115,7 @@ pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slow
 
 /// Returns whether relaxation determines the approach. Under gravity the weight does.
 fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
-    estimate.relaxed > LOSS_OF_MODULI_OF_FLOW && scene.gravity().is_none()
+    estimate.relaxed > LARGE_LOSS_OF_MODULI && scene.gravity().is_none()
 }
 
 /// Returns Ting's impact of strongly relaxing bodies; `None` for others.

@@ -14,6 +14,7 @@ use super::method_of;
 use crate::effects::{self, EFFECTS, Effect, PlasticFlow, Support};
 use crate::estimate::{Estimate, Regime, viscous_flow};
 use crate::models::method::{Method, Model, SharedModels};
+use crate::plan::Plan;
 use crate::quantity_errors::{QuantityErrors, tolerance_of};
 use crate::rejection::Rejection;
 
@@ -35,9 +36,14 @@ impl Method for AutoMethod {
         None
     }
 
-    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+    fn resolve(
+        &self,
+        regime: &Regime,
+        plan: Option<&Plan>,
+        file: CaseFile,
+    ) -> Result<CaseFile, Rejection> {
         let chosen = with_chosen_model(regime)?;
-        method_of(&chosen.scene).resolve(&chosen, file)
+        method_of(&chosen.scene).resolve(&chosen, plan, file)
     }
 }
 
@@ -255,41 +261,34 @@ impl Candidate {
         let model = effects::ConsideredModel { case: scene, own, estimate, support };
         let has_fields = matches!(own.model(), ModelChoice::Fem | ModelChoice::Condensed(_));
         let disobeyed = EFFECTS.into_iter().find(|effect| model.disobeys(*effect));
-        let mut impossible = disobeyed
-            .map(|effect| format!("cannot do as [effects] says for {}", effect.name()))
-            .or_else(|| {
-                (!has_fields && asks_for_fields(scene))
-                    .then(|| "cannot write the requested snapshots or probes".to_string())
-            });
-        let mut error = self.own_error(scene, estimate, has_fields);
-        let (mut worst, mut unknown, mut advice) = (None, Vec::new(), None);
-        for effect in EFFECTS {
-            let found = effect.adequacy(&model);
-            impossible = impossible.or(found.impossible);
-            advice = found.advice.or(advice);
-            let Some(change) = found.error else {
-                unknown.push(effect.name());
-                continue;
-            };
-            error = error.plus(change);
-            let part = excess(&change, scene, estimate);
-            if found.is_lack && worst.is_none_or(|(_, most)| part > most) {
-                worst = Some((effect.name(), part));
-            }
-        }
+        let disobeyed =
+            disobeyed.map(|it| format!("cannot do as [effects] says for {}", it.name()));
+        let no_fields = (!has_fields && asks_for_fields(scene))
+            .then(|| "cannot write the requested snapshots or probes".to_string());
+        let mut found = EFFECTS.map(|effect| (effect.name(), effect.adequacy(&model)));
+        let by_effect = found.iter_mut().find_map(|(_, it)| it.impossible.take());
+        let impossible = disobeyed.or(no_fields).or(by_effect);
+        let advice = found.iter_mut().rev().find_map(|(_, it)| it.advice.take());
+        let unknown: Vec<_> = found.iter().filter(|(_, it)| it.error.is_none()).collect();
+        let known = || found.iter().filter_map(|(name, it)| Some((*name, it.is_lack, it.error?)));
+        let own_error = self.own_error(scene, estimate, has_fields);
+        let error = known().fold(own_error, |sum, (_, _, change)| sum.plus(change));
+        let lacks = known().filter(|(_, is_lack, _)| *is_lack);
+        let worst = lacks
+            .map(|(name, _, change)| (name, excess(&change, scene, estimate)))
+            .reduce(|worst, next| if next.1 > worst.1 { next } else { worst });
         let total = excess(&error, scene, estimate);
         let (is_possible, is_advised) = (impossible.is_none(), advice.is_some());
-        let rejection_reason =
-            impossible.or_else(|| inaccuracy(unknown.first().copied(), worst, total)).or(advice);
-        let error = if unknown.is_empty() { error } else { QuantityErrors::default() };
+        let first_unknown = unknown.first().map(|(name, _)| *name);
+        let inaccuracy = || inaccuracy(first_unknown, worst, total);
         CandidateVerdict {
-            error: (&error).into(),
+            error: if unknown.is_empty() { (&error).into() } else { ExpectedError::default() },
             n_unknown: unknown.len(),
             is_futile: !unknown.is_empty() && *own.model() == ModelChoice::Fem,
             is_advised,
             excess: total,
             is_possible,
-            rejection_reason,
+            rejection_reason: impossible.or_else(inaccuracy).or(advice),
         }
     }
 

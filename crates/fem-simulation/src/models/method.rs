@@ -61,11 +61,16 @@ pub trait Method: Sync {
     }
 
     /// Returns the case as written with the method's defaults filled in, which makes the same model. Keys that the
-    /// method does not read stay as they are.
+    /// method does not read stay as they are. `plan` is that of a model that is built.
     ///
     /// # Errors
     /// As [`Method::expected`].
-    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection>;
+    fn resolve(
+        &self,
+        regime: &Regime,
+        plan: Option<&Plan>,
+        file: CaseFile,
+    ) -> Result<CaseFile, Rejection>;
 }
 
 /// What is expected of a run before its factors are made.

@@ -18,6 +18,7 @@ use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use crate::effects::{Effect, SimplifiedScene, Support, Transformation, decide};
 use crate::estimate::{Estimate, Regime};
 use crate::models::method::{ExpectedRun, Method, Model, ModelSetup, SharedModels};
+use crate::plan::Plan;
 use crate::rejection::Rejection;
 
 use bouncing::Bouncing;
@@ -131,9 +132,9 @@ impl ComputedScene {
         Ok(ExpectedRun { element_updates, ..of_contact })
     }
 
-    /// Returns the case as written with every default of its method filled in.
-    pub fn resolve(&self, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let mut file = self.method().resolve(&self.selected.regime, file)?;
+    /// Returns the case as written with every default of its method filled in; `plan` is that of a model that is built.
+    pub fn resolve(&self, plan: Option<&Plan>, file: CaseFile) -> Result<CaseFile, Rejection> {
+        let mut file = self.method().resolve(&self.selected.regime, plan, file)?;
         if let Some(gravity) = self.given.scene.gravity() {
             let bounces = Quantity::from_si(gravity.bounces as f64);
             file.stop = Some(StopTable { bounces: Some(bounces) });

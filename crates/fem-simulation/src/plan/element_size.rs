@@ -28,24 +28,46 @@
 use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
 use fem_collision::QuantityOfInterest;
 
-use crate::effects::FiniteStrain;
+use crate::effects::{FiniteStrain, MAX_MOVED_MASS};
 use crate::error::calibration::Calibration;
 use crate::estimate::Estimate;
 use crate::quantity_errors::tolerance_of;
 
-/// Error of the peak force times k² without the oscillation.
-const SMOOTH_ERROR: f64 = 0.05;
-/// Error of the peak force times k² by the oscillation.
-const OSCILLATING_ERROR: f64 = 0.10;
-/// Error of the peak force times k² for nodes that touch exactly.
-const ERROR_AT_NODES: f64 = 0.05;
+/// The bounds of the errors for one kind of contact.
+struct ContactBounds {
+    /// Error of the peak force times k² without the oscillation.
+    smooth_error: f64,
+    /// Error of the peak force times k² by the oscillation.
+    oscillating_error: f64,
+    /// Bounds of the errors of [`BOUNDED_QUANTITIES`] over that of the force.
+    over_force_error: [f64; 4],
+    /// Fewest elements across the contact radius.
+    min_across: f64,
+    /// Least share of the elements that later contacts under gravity have.
+    share_of_later_contacts: f64,
+}
+
+/// Springs between the surfaces: with 3.5 elements the radius of relaxing bodies has an error of 8 %.
+const SPRINGS: ContactBounds = ContactBounds {
+    smooth_error: 0.05,
+    oscillating_error: 0.10,
+    over_force_error: [1.0, 0.4, 0.3, 3.0],
+    min_across: 4.0,
+    share_of_later_contacts: 1.0,
+};
+/// Nodes that touch exactly: with 4.5 elements the error of the radius is up to 1.2 %, with 5.5 0.7 %. The mesh stays under gravity.
+const NODES: ContactBounds = ContactBounds {
+    smooth_error: 0.05,
+    oscillating_error: 0.0,
+    over_force_error: [1.0, 1.0, 0.2, 2.4],
+    min_across: 5.45,
+    share_of_later_contacts: 0.75,
+};
 /// Share of the tolerance for the mesh. The rest is for moved mass, and without it for relaxation, which moves the
 /// contact's edge.
 const TOLERANCE_SHARE_OF_MESH: f64 = 0.75;
 /// Moved mass over the tolerance: the force changes by half of its share.
 const MASS_OVER_TOLERANCE: f64 = 0.5;
-/// Most mass that is moved by default: bodies with relaxation times near the time step are more sensitive.
-const MAX_MOVED_MASS: f64 = 1e-2;
 /// Moved mass on a plate that bends over that elsewhere: moved mass takes part in the motion of the plate, and changes the
 /// restitution four times as much.
 const MASS_ON_PLATE: f64 = 0.2;
@@ -58,12 +80,6 @@ const TOLERANCE_SHARE_AT_FINITE_STRAIN: f64 = 0.5;
 /// impacts the first and last touch are waves of a few elements' length, which bulk viscosity damps. Soft balls on walls
 /// at 0.06, 0.17 and 0.56, ν = 0.2 to 0.49, are within the tolerance with 7, 11 and 17 elements across the contact.
 pub(crate) const MACH_OF_SLOW_IMPACTS: f64 = 0.03;
-/// Fewest elements across the contact radius: with 3.5 the radius of relaxing bodies has an error of 8 %.
-const MIN_ACROSS: f64 = 4.0;
-/// Fewest elements for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
-const MIN_ACROSS_AT_NODES: f64 = 5.45;
-/// Least share of the elements that later contacts under gravity have, for nodes that touch exactly: the mesh stays.
-const ELEMENT_SHARE_OF_LATER_CONTACTS: f64 = 0.75;
 /// Place of the edge between two nodes at which the oscillation passes through zero.
 const ZERO_OF_OSCILLATION: f64 = 0.35;
 /// Share of the tolerance for the place of the contact's edge between two nodes, if bodies flow plastically.
@@ -75,10 +91,6 @@ const BOUNDED_QUANTITIES: [QuantityOfInterest; 4] = [
     QuantityOfInterest::Restitution,
     QuantityOfInterest::PeakPressure,
 ];
-/// Bounds of the errors of [`BOUNDED_QUANTITIES`] over that of the force.
-const ERRORS_OVER_FORCE_ERROR: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
-/// The same bounds for nodes that touch exactly.
-const ERRORS_OVER_FORCE_ERROR_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 
 /// The result of the a-priori mesh rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,25 +114,13 @@ impl MeshRule {
         let is_finite = *scene.model() == ModelChoice::Fem && FiniteStrain::is_on(scene, estimate);
         let share = if is_finite && !is_staggered { TOLERANCE_SHARE_AT_FINITE_STRAIN } else { 1.0 };
         let at_nodes = touches_at_nodes(scene.model());
-        let (bounds, fewest) = match at_nodes {
-            true => (&ERRORS_OVER_FORCE_ERROR_AT_NODES, MIN_ACROSS_AT_NODES),
-            false => (&ERRORS_OVER_FORCE_ERROR, MIN_ACROSS),
-        };
-        let later = if at_nodes && scene.gravity().is_some() {
-            ELEMENT_SHARE_OF_LATER_CONTACTS
-        } else {
-            1.0
-        };
-        let (least, limiting_quantity) = tolerance(&scene.accuracy(), bounds);
+        let bounds = if at_nodes { &NODES } else { &SPRINGS };
+        let later = scene.gravity().map_or(1.0, |_| bounds.share_of_later_contacts);
+        let (least, limiting_quantity) = tolerance(&scene.accuracy(), &bounds.over_force_error);
         let tolerance = share * least;
-        let error = match at_nodes {
-            true => ERROR_AT_NODES,
-            false => {
-                let [lower, upper] = scene.compliance_shares();
-                let share = if is_staggered { (lower - upper).abs() } else { 1.0 };
-                SMOOTH_ERROR + OSCILLATING_ERROR * share
-            }
-        };
+        let [lower, upper] = scene.compliance_shares();
+        let oscillating = if is_staggered { (lower - upper).abs() } else { 1.0 };
+        let error = bounds.smooth_error + bounds.oscillating_error * oscillating;
         let asked_for = match estimate.flow {
             Some(_) => {
                 let Accuracy { restitution, peak_force, .. } = scene.accuracy();
@@ -130,7 +130,7 @@ impl MeshRule {
             None => (error / (TOLERANCE_SHARE_OF_MESH * tolerance)).sqrt() / later,
         };
         let for_waves = (estimate.mach / MACH_OF_SLOW_IMPACTS).cbrt().max(1.0);
-        let for_tolerance = asked_for.max(fewest);
+        let for_tolerance = asked_for.max(bounds.min_across);
         let asked_for = scene.refinement() * for_waves * for_tolerance;
         let across = asked_for.min(MAX_ACROSS);
         let across = match is_staggered || at_nodes {
@@ -151,8 +151,8 @@ impl MeshRule {
 
     /// Returns the share of moved mass that suits `across` elements across the contact on one mesh.
     pub fn mass_scaling_beside(across: f64) -> f64 {
-        let tolerance =
-            (SMOOTH_ERROR + OSCILLATING_ERROR) / (TOLERANCE_SHARE_OF_MESH * across * across);
+        let error = SPRINGS.smooth_error + SPRINGS.oscillating_error;
+        let tolerance = error / (TOLERANCE_SHARE_OF_MESH * across * across);
         (MASS_OVER_TOLERANCE * tolerance).min(MAX_MOVED_MASS)
     }
 }
@@ -231,7 +231,7 @@ mod tests {
             for k in 0..60 {
                 let tolerance = format!("accuracy.tolerance={:e}", 0.4 * 0.8_f64.powi(k));
                 let now = mesh_rule(&[set, &[tolerance.as_str()]].concat());
-                assert!(now.across <= MAX_ACROSS + 1.0 && now.across >= MIN_ACROSS);
+                assert!(now.across <= MAX_ACROSS + 1.0 && now.across >= SPRINGS.min_across);
                 if let Some(before) = before {
                     assert!(now.across >= before.across && now.mass_scaling <= before.mass_scaling);
                 }

@@ -83,12 +83,17 @@ pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
     }
 }
 
-/// Rings per length of the bending waves of the frequency 1/T, T the contact time, on a mesh with [`ACROSS`] elements across
-/// the contact; half as many change the restitution by up to 0.002, twice as many by 0.0005.
-const RINGS_PER_BENDING_WAVE: f64 = 80.0;
-/// Rings per distance that shear waves travel in the contact time, on the same mesh.
-const RINGS_PER_SHEAR_WAVE: f64 = 40.0;
-const ACROSS: f64 = 6.0;
+/// The rings of a plate's mesh with a number of elements across the contact.
+struct Rings {
+    across: f64,
+    /// Rings per length of the bending waves of the frequency 1/T, T the contact time.
+    per_bending_wave: f64,
+    /// Rings per distance that shear waves travel in the contact time.
+    per_shear_wave: f64,
+}
+
+/// Half as many rings per bending wave change the restitution by up to 0.002, twice as many by 0.0005.
+const RINGS: Rings = Rings { across: 6.0, per_bending_wave: 80.0, per_shear_wave: 40.0 };
 
 /// Returns the mesh that the plan chooses for a plate, lower (0) or upper (1). A plate that ends before waves from its edge
 /// matter is meshed to its free edge, a wider one to the far radius.
@@ -107,7 +112,7 @@ pub(crate) fn graded_plate(
         12.0 * material.density() / (moduli.plane_strain_modulus() * plate.thickness.powi(2));
     let bending_wave = (TAU * time).sqrt() / inertia_per_stiffness.powf(0.25);
     let shear_wave = material.shear_wave_speed() * time;
-    let coarseness = ACROSS * plan.contact_element_size / divided_radius(&plan.estimate);
+    let coarseness = RINGS.across * plan.contact_element_size / divided_radius(&plan.estimate);
     GradedPlate {
         thickness: plate.thickness,
         radius: plan.far_radius.unwrap_or(own_radius),
@@ -117,7 +122,7 @@ pub(crate) fn graded_plate(
         refined_radius: plan.refined_radius,
         growth: plan.growth,
         ring_width: coarseness
-            * (bending_wave / RINGS_PER_BENDING_WAVE).min(shear_wave / RINGS_PER_SHEAR_WAVE),
+            * (bending_wave / RINGS.per_bending_wave).min(shear_wave / RINGS.per_shear_wave),
         edge: plan.contact_edge(),
     }
 }

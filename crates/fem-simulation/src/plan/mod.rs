@@ -9,6 +9,8 @@ pub(crate) mod mesh_source;
 pub(crate) mod pair_cache;
 pub(crate) mod penalty_compliance;
 
+use std::borrow::Cow;
+
 use fem_case::engineering::number;
 use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, SnapshotsValue, StartTable,
@@ -34,7 +36,7 @@ use crate::plan::mesh_offset::{finer_body, is_generated, staggered};
 use crate::rejection::Rejection;
 
 /// Half-width of the block of equal elements over the contact radius.
-const REFINED_OVER_CONTACT: f64 = 1.2;
+pub(crate) const REFINED_OVER_CONTACT: f64 = 1.2;
 /// Half-width of the candidate region over the contact radius.
 const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 /// Default penalty stiffness per area times element size, over E*. In the glass pair with eight elements across the
@@ -131,6 +133,17 @@ impl Plan {
         Self::in_regime(&Regime::of(scene.clone())?)
     }
 
+    /// Returns a plan if it is known, or else that of a scene in its regime.
+    ///
+    /// # Errors
+    /// Those of [`Plan::in_regime`].
+    pub(crate) fn known<'a>(
+        known: Option<&'a Self>,
+        regime: &Regime,
+    ) -> Result<Cow<'a, Self>, Rejection> {
+        known.map_or_else(|| Self::in_regime(regime).map(Cow::Owned), |it| Ok(Cow::Borrowed(it)))
+    }
+
     /// Returns the plan of a scene in its regime.
     ///
     /// # Errors
@@ -157,38 +170,13 @@ impl Plan {
             radius.min(estimate.smallest_radius)
         });
         let candidate_radius = candidate_radius(estimate, contact_element_size);
-        let penalty_factor =
-            scene.penalty_factor().unwrap_or_else(|| default_penalty_factor(estimate));
-        let contact_stiffness =
-            penalty_factor * PENALTY_OVER_MODULUS * estimate.hertz.pair().contact_modulus();
-        let per_area = contact_stiffness / contact_element_size;
-        if scene.penalty_factor().is_some() && !(per_area.is_finite() && per_area > 0.0) {
-            let found = format!(
-                "springs of contact.penalty_factor = {penalty_factor:e} have {per_area:e} Pa/m"
-            );
-            return Err(Rejection::new("contact.penalty_factor", found).with_help(
-                "this stiffness must be positive and finite; leave it out for the default",
-            ));
-        }
+        let (penalty_factor, contact_stiffness) = springs(scene, estimate, contact_element_size)?;
         let makes_meshes = scene.bodies().iter().any(is_generated);
         let far_radius = far_radius(&meshed(scene), estimate, refined_radius, candidate_radius);
         let mut warnings = unread_keys(scene, makes_meshes, far_radius.is_some());
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
         let out_of_reach = rule.error_on_finest_mesh.filter(|_| is_chosen);
-        if let Some(reached) = out_of_reach {
-            let across = rule.across;
-            warnings.push(match rule.is_for_tolerance {
-                true => format!(
-                    "{UNREACHABLE}: even {across:.0} elements across the contact leave an error of about {} \
-                     of the peak force; raise accuracy.tolerance",
-                    percent(reached)
-                ),
-                false => format!(
-                    "accuracy.tolerance may not be met: the finest mesh has {across:.0} elements across the contact; the \
-                     estimated error or the steep fronts of a fast impact ask for more"
-                ),
-            });
-        }
+        warnings.extend(out_of_reach.map(|reached| finest_mesh_warning(&rule, reached)));
         let limits = scene.limits();
         Ok(Self {
             speed_share: 1.0,
@@ -305,6 +293,38 @@ impl Plan {
             memory: Some((self.max_memory as f64).into()),
         });
         file
+    }
+}
+
+/// Returns the penalty factor, and the stiffness per area times element size (Pa) of springs on elements of this size, m.
+fn springs(scene: &Scene, estimate: &Estimate, size: f64) -> Result<(f64, f64), Rejection> {
+    let given = scene.penalty_factor();
+    let factor = given.unwrap_or_else(|| default_penalty_factor(estimate));
+    let stiffness = factor * PENALTY_OVER_MODULUS * estimate.hertz.pair().contact_modulus();
+    let per_area = stiffness / size;
+    if given.is_some() && !(per_area.is_finite() && per_area > 0.0) {
+        let found =
+            format!("springs of contact.penalty_factor = {factor:e} have {per_area:e} Pa/m");
+        return Err(Rejection::new("contact.penalty_factor", found).with_help(
+            "this stiffness must be positive and finite; leave it out for the default",
+        ));
+    }
+    Ok((factor, stiffness))
+}
+
+/// Returns the warning that the finest mesh, whose force has this error, is too coarse.
+fn finest_mesh_warning(rule: &MeshRule, reached: f64) -> String {
+    let across = rule.across;
+    match rule.is_for_tolerance {
+        true => format!(
+            "{UNREACHABLE}: even {across:.0} elements across the contact leave an error of about {} \
+             of the peak force; raise accuracy.tolerance",
+            percent(reached)
+        ),
+        false => format!(
+            "accuracy.tolerance may not be met: the finest mesh has {across:.0} elements across the contact; the \
+             estimated error or the steep fronts of a fast impact ask for more"
+        ),
     }
 }
 

@@ -11,6 +11,7 @@ use fem_collision::{
 use super::dent::dents;
 use super::energy::in_history;
 use super::snapshots::shown;
+use crate::plan::REFINED_OVER_CONTACT;
 use crate::simulation::Simulation;
 
 /// The file name of the history.
@@ -81,9 +82,7 @@ pub fn history_csv(mut to: impl Write, columns: &HistoryColumns) -> io::Result<(
 
 /// The file name of the contact at each snapshot.
 pub const CONTACT_FILE: &str = "contact.csv";
-/// Range of the rows from the axis, over the contact radius, and the least number of nodes beyond the
-/// contact.
-const CONTACT_ROWS_OVER_RADIUS: f64 = 1.2;
+/// Least number of nodes beyond the contact.
 const NODES_BEYOND: usize = 3;
 
 /// Returns whether the snapshots have a contact to be written.
@@ -125,7 +124,7 @@ pub fn contact_csv(
 fn n_shown(contact: &ContactProfile) -> usize {
     let near = contact
         .places
-        .partition_point(|place| place.radius <= CONTACT_ROWS_OVER_RADIUS * contact.radius);
+        .partition_point(|place| place.radius <= REFINED_OVER_CONTACT * contact.radius);
     let beyond = contact
         .places
         .iter()

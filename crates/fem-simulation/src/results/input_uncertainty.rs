@@ -21,8 +21,8 @@ use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 use super::relaxation_band::variants;
 use super::summary::Quantities;
 use crate::effects::{PartnerWaves, SimplifiedScene};
-use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
+use crate::estimate::{Estimate, Regime};
 use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
 use crate::simulation::Simulation;
@@ -74,9 +74,10 @@ fn impact_of(scene: &Scene, estimate: &Estimate) -> Option<ImpactQuantities> {
     if matches!(scene.model(), ModelChoice::Law { .. }) {
         return Some(quantities(&Reduced::new(scene).ok()?.impact(speed).ok()?));
     }
-    let scene = SimplifiedScene::quiet(scene, estimate)?;
+    // The speed may be what differs.
+    let estimate = estimate.of_variant(scene, speed).ok()?;
+    let Regime { scene, estimate } = SimplifiedScene::quiet(scene.clone(), &estimate)?;
     let pair = scene.pair().ok()?;
-    let estimate = estimate.of_variant(&scene, speed).ok()?;
     let kept = share_beside_waves(&scene, &estimate);
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     let has_plate = scene.bodies().iter().any(|body| body.plate().is_some());

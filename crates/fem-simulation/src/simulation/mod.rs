@@ -75,7 +75,8 @@ impl Simulation {
         let computed = ComputedScene::of(&scene).map_err(of_case)?;
         let model: Arc<dyn Model> = Arc::from(computed.model(shared).map_err(of_case)?);
         let setup = computed.setup_of(model.as_ref()).map_err(of_case)?;
-        let resolved = computed.resolve(case.file().clone()).map_err(of_case)?;
+        let plan = setup.elements.as_ref().map(|elements| &elements.plan);
+        let resolved = computed.resolve(plan, case.file().clone()).map_err(of_case)?;
         let mut request = setup.request.clone();
         request.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
         Ok(Self {
@@ -128,7 +129,7 @@ impl Simulation {
     /// # Errors
     /// A case that the method rejects.
     pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
-        let resolve = |scene: ComputedScene| scene.resolve(case.file().clone());
+        let resolve = |scene: ComputedScene| scene.resolve(None, case.file().clone());
         ComputedScene::of(case.scene())
             .and_then(resolve)
             .map_err(|rejection| rejection.in_case(case))

@@ -68,7 +68,7 @@ pub(super) const COMMON: f64 = 8.0;
 pub(super) const LARGE_MASS_SCALING: f64 = 4.0;
 /// Elements across the contact radius of condensed, explicit and compared bodies.
 const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
-const EXPLICIT: [f64; 8] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0];
+const EXPLICIT: &[f64] = CONDENSED.split_at(8).0;
 const COMPARED: [f64; 5] = [3.0, 4.0, 5.0, 8.0, 11.0];
 
 const fn condensed(vibration_modes: u8, penalty_springs: bool) -> Setting {
@@ -99,9 +99,9 @@ pub(super) const PRESETS: [Preset; 15] = {
         row(Hertz, "Hertz", true, &[], FiniteSize(|finite_size| Setting::Hertz { finite_size })),
         row(Ting, "Ting", true, &[], FiniteSize(|finite_size| Setting::Ting { finite_size })),
         row(Condensed, "condensed", true, &[condensed(0, false)], ElementSize(&CONDENSED)),
-        row(CondensedSprings, "condensed, springs", false, &[condensed(0, true)], ElementSize(&EXPLICIT)),
+        row(CondensedSprings, "condensed, springs", false, &[condensed(0, true)], ElementSize(EXPLICIT)),
         row(CondensedVibrating, "condensed, 12 modes", true, &[condensed(12, false)], ElementSize(&[4.0, 8.0, 16.0])),
-        row(Explicit, "explicit", true, &[FEM], ElementSize(&EXPLICIT)),
+        row(Explicit, "explicit", true, &[FEM], ElementSize(EXPLICIT)),
         row(ExplicitScaled, "explicit, four times the mass moved", true, &[FEM], ElementSize(&COMPARED)),
         row(ExplicitGrown, "explicit, growth 1.25", true, &[FEM, Setting::Growth(1.25)], ElementSize(&COMPARED)),
         row(Penalty, "explicit, penalty", true, &[FEM, PENALTY], ElementSize(&COMPARED)),

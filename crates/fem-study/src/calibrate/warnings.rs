@@ -8,10 +8,9 @@ use super::calibration::{Calibration, UNUSED_STEPS};
 use super::pair_model::STEPS_PER_CONTACT_TIME;
 use super::settings::SettingNames;
 use fem_simulation::effects::QUASI_STATIC_LIMIT;
+use fem_simulation::error::MIN_ACROSS;
 use fem_simulation::{WarningKind, WarningKinds};
 
-/// Fewest elements that resolve a contact radius.
-const MIN_ELEMENTS: f64 = 3.0;
 /// Larger misfits, in multiples of the uncertainties, are not scatter.
 pub(super) const LARGE_MISFIT: f64 = 2.0;
 /// Larger rms errors of e are not those of the model or the mesh.
@@ -49,7 +48,7 @@ impl Calibration {
     /// Returns the warning about the coarsest of the meshes that are too coarse.
     fn coarse(&self) -> Option<String> {
         let across = self.experiments.iter().filter_map(|experiment| experiment.elements_across);
-        let few: Vec<f64> = across.map(|(least, _)| least).filter(|n| *n < MIN_ELEMENTS).collect();
+        let few: Vec<f64> = across.map(|(least, _)| least).filter(|n| *n < MIN_ACROSS).collect();
         let least = few.iter().copied().reduce(f64::min)?;
         let others = match few.len() {
             1 => String::new(),

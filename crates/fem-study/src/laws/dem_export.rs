@@ -9,9 +9,9 @@ use fem_data::estimate::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily, MIN_RESTITUTION};
 
-use super::CONFIDENCE;
 use super::chosen_law::{ChosenLaw, model_of};
 use super::impact_curve::ImpactCurve;
+use fem_data::estimate::CONFIDENCE;
 
 /// Restitutions nearer to 1 do not determine a law.
 const LOSSLESS: f64 = 1e-7;

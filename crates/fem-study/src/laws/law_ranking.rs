@@ -17,9 +17,9 @@ use fem_case::Case;
 use fem_data::estimate::{Fit, Model};
 use fem_laws::{EndRule, LawFamily};
 
-use super::CONFIDENCE;
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
+use fem_data::estimate::CONFIDENCE;
 use fem_data::estimate::loss_parameter;
 use fem_data::table::Restitutions;
 

@@ -68,6 +68,3 @@ pub use stored_fit::{RestitutionBand, StoredFit};
 
 pub use fem_data::estimate::FitError;
 pub use fem_laws::{EndRule, LawFamily};
-
-/// Confidence level of fits whose intervals are not used.
-const CONFIDENCE: f64 = 0.95;

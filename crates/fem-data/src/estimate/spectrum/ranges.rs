@@ -58,6 +58,15 @@ pub(super) struct RangeSearch<'a> {
 }
 
 impl RangeSearch<'_> {
+    /// Returns the ranges of all weights and of their moments, for these relaxation times, s.
+    pub fn all(&self, times: &[f64]) -> Result<(Vec<Range>, [Range; 3]), FitError> {
+        let n = times.len();
+        let single = |k: usize| (0..n).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
+        let weights = (0..n).map(|k| self.range(&single(k))).collect::<Result<_, _>>()?;
+        let [total, rate, time] = moments(times);
+        Ok((weights, [self.range(&total)?, self.range(&rate)?, self.range(&time)?]))
+    }
+
     /// Returns the range of c·w.
     pub fn range(&self, combination: &[f64]) -> Result<Range, FitError> {
         let value = dot(combination, self.best);

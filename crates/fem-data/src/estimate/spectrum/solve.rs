@@ -6,13 +6,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bounded::Linear;
 use super::parts::{Evidence, Parts};
-use super::ranges::{RangeSearch, moments};
-use super::repeats::{PureError, n_distinct};
+use super::ranges::RangeSearch;
 use super::resolution::Resolution;
-use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem};
+use super::{MODEL_ERROR, PureError, SpectrumFit, SpectrumProblem, n_distinct};
 use crate::estimate::error::FitError;
 use crate::estimate::least_squares::quantile;
-use crate::estimate::robust::{Fitted, reweight};
+use crate::estimate::robust::{Fitted, Robustness, reweight};
 
 /// Step of the differences: weights are of order 1, and collisions are smooth to 1e-7.
 const STEP: f64 = 1e-3;
@@ -92,12 +91,7 @@ impl<'a> Solver<'a> {
             if problem.uncertainties.is_some() { problem.unit() } else { MODEL_ERROR };
         let mut robustness = None;
         if problem.is_robust {
-            let first = self.fitted((state, jacobian));
-            let next = |(last, _): &(State, _), weights: &[f64]| {
-                self.data_weights = weights.to_vec();
-                Ok(self.fitted(self.minimise(last.clone())?))
-            };
-            let (found, counted) = reweight(first, least_scale, next)?;
+            let (found, counted) = self.reweighted((state, jacobian), least_scale)?;
             ((state, jacobian), robustness) = (found, Some(counted));
         }
         let linear = self.of_data(&state, &jacobian);
@@ -130,12 +124,7 @@ impl<'a> Solver<'a> {
             best_misfit: sum + self.of_prior(&state.weights),
             rise: (error * quantile).powi(2),
         };
-        let n = problem.times.len();
-        let single = |k: usize| (0..n).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
-        let weight_ranges =
-            (0..n).map(|k| search.range(&single(k))).collect::<Result<Vec<_>, _>>()?;
-        let [total, rate, time] = moments(problem.times);
-        let moments = [search.range(&total)?, search.range(&rate)?, search.range(&time)?];
+        let (weight_ranges, moments) = search.all(problem.times)?;
         let squares = state.restitutions.iter().zip(problem.measured).map(|(e, m)| (e - m).powi(2));
         let mut resolution =
             Resolution::of(&linear.a, error, problem.regularisation, &state.weights);
@@ -173,6 +162,20 @@ impl<'a> Solver<'a> {
     fn n_free(&self, state: &State) -> usize {
         let n_free = state.weights.iter().filter(|weight| **weight > STANDS).count();
         n_free.min(n_distinct(self.problem.collisions))
+    }
+
+    /// Returns a minimum with data that are weighted by their residuals, and what weighs them.
+    fn reweighted(
+        &mut self,
+        found: (State, DMatrix<f64>),
+        least_scale: f64,
+    ) -> Result<((State, DMatrix<f64>), Robustness), FitError> {
+        let first = self.fitted(found);
+        let next = |(last, _): &(State, _), weights: &[f64]| {
+            self.data_weights = weights.to_vec();
+            Ok(self.fitted(self.minimise(last.clone())?))
+        };
+        reweight(first, least_scale, next)
     }
 
     /// Returns a minimum with its residuals, without the weights of the data.

@@ -52,6 +52,58 @@ pub(super) struct Fit<'a> {
     rescaled: Option<Box<Self>>,
 }
 
+/// The residuals of parabolas.
+struct Residuals {
+    /// Their root mean square per degree of freedom, m.
+    noise: f64,
+    freedom: f64,
+    /// Correlation of neighbouring frames, 0 if it is none.
+    correlation: f64,
+}
+
+impl Residuals {
+    /// Returns the residuals of flights with these accelerations, of which `n_free` are fitted.
+    fn of(
+        frames: &Frames,
+        flights: &[&TrackFlight],
+        gravity: &dyn Fn(&TrackFlight) -> f64,
+        n_free: usize,
+    ) -> Self {
+        let of_flight = |flight: &&TrackFlight| -> Vec<f64> {
+            let parabola = flight.parabola(gravity(flight));
+            let off = |k: &usize| {
+                (frames.heights[*k] - parabola.at(frames.times[*k])) * frames.weights[*k].sqrt()
+            };
+            flight.frames.iter().map(off).collect()
+        };
+        let residuals: Vec<Vec<f64>> = flights.iter().map(of_flight).collect();
+        let n_frames: usize = residuals.iter().map(Vec::len).sum();
+        let squares: f64 = residuals.iter().flatten().map(|r| r * r).sum();
+        let products: f64 =
+            residuals.iter().flat_map(|r| r.windows(2).map(|pair| pair[0] * pair[1])).sum();
+        let freedom = n_frames as f64 - 2.0 * flights.len() as f64 - n_free as f64;
+        let n_pairs: usize = residuals.iter().map(|r| r.len().saturating_sub(1)).sum();
+        // Each flight's fit of two or three parameters makes the residuals anticorrelated, by these over the frames.
+        let bias = (2.0 * flights.len() as f64 + n_free as f64) / n_frames.max(1) as f64;
+        let mean = squares / n_frames.max(1) as f64;
+        let rough = if mean > 0.0 { products / n_pairs.max(1) as f64 / mean } else { 0.0 };
+        let found = rough + bias;
+        let is_clear = found > 2.0 / (n_frames.max(1) as f64).sqrt();
+        Self {
+            noise: (squares / freedom.max(1.0)).sqrt(),
+            freedom,
+            correlation: if is_clear { found.min(MOST_CORRELATION) } else { 0.0 },
+        }
+    }
+
+    /// Returns the factor from the noise of independent frames to standard uncertainties.
+    fn widening(&self) -> f64 {
+        let Self { freedom, correlation, .. } = *self;
+        let effective = freedom * (1.0 - correlation) / (1.0 + correlation);
+        ((1.0 + correlation) / (1.0 - correlation)).sqrt() * widened(effective.max(1.0))
+    }
+}
+
 /// Instant and speeds of a bounce.
 #[derive(Clone, Copy, Debug)]
 struct Bounce {
@@ -112,69 +164,31 @@ impl<'a> Fit<'a> {
         rig: &Rig,
     ) -> Self {
         let used: Vec<&TrackFlight> = flights.iter().flatten().collect();
-        let n_frames: usize = used.iter().map(|flight| flight.frames.len()).sum();
         let (along, across) = used.iter().fold((0.0, 0.0), |sum, flight| {
             let (along, across) = flight.curvature(frames);
             (sum.0 + along, sum.1 + across)
         });
-        let residuals = |gravity: &dyn Fn(&TrackFlight) -> f64| -> Vec<Vec<f64>> {
-            let of_flight = |flight: &&TrackFlight| {
-                let parabola = flight.parabola(gravity(flight));
-                let off = |k: &usize| {
-                    (frames.heights[*k] - parabola.at(frames.times[*k])) * frames.weights[*k].sqrt()
-                };
-                flight.frames.iter().map(off).collect()
-            };
-            used.iter().map(of_flight).collect()
-        };
-        let summary = |gravity: &dyn Fn(&TrackFlight) -> f64, n_free: usize| {
-            let residuals = residuals(gravity);
-            let squares: f64 = residuals.iter().flatten().map(|r| r * r).sum();
-            let products: f64 =
-                residuals.iter().flat_map(|r| r.windows(2).map(|pair| pair[0] * pair[1])).sum();
-            let freedom = n_frames as f64 - 2.0 * used.len() as f64 - n_free as f64;
-            let n_pairs: usize = residuals.iter().map(|r| r.len().saturating_sub(1)).sum();
-            // Each flight's fit of two or three parameters makes the residuals anticorrelated, by these over the frames.
-            let bias = (2.0 * used.len() as f64 + n_free as f64) / n_frames.max(1) as f64;
-            let mean = squares / n_frames.max(1) as f64;
-            let rough = if mean > 0.0 { products / n_pairs.max(1) as f64 / mean } else { 0.0 };
-            ((squares / freedom.max(1.0)).sqrt(), freedom, rough + bias)
-        };
-        let given = rig.gravity;
         let mut gravity = Measured { value: rig.flights().gravity(), ..rig.gravity() };
         let common = if across > 0.0 { along / across } else { 0.0 };
-        let (noise, freedom, correlation) = summary(&|_| common, 1);
-        let correlation_of = |found: f64| {
-            if found > 2.0 / (n_frames.max(1) as f64).sqrt() {
-                found.min(MOST_CORRELATION)
-            } else {
-                0.0
-            }
-        };
-        let factor = |correlation: f64, freedom: f64| {
-            let effective = freedom * (1.0 - correlation) / (1.0 + correlation);
-            ((1.0 + correlation) / (1.0 - correlation)).sqrt() * widened(effective.max(1.0))
-        };
+        let mut scatter = Residuals::of(frames, &used, &|_| common, 1);
         let fitted = Measured {
             value: along / across,
-            uncertainty: noise * factor(correlation_of(correlation), freedom) / across.sqrt(),
+            uncertainty: scatter.noise * scatter.widening() / across.sqrt(),
         };
         let is_clear = fitted.uncertainty <= VAGUE_GRAVITY * fitted.value.abs();
-        let has_fitted_gravity = given.is_none() && across > 0.0 && freedom >= 1.0 && is_clear;
-        let (noise, freedom, correlation) = match has_fitted_gravity {
-            true => {
-                gravity = fitted;
-                (noise, freedom, correlation)
-            }
-            false => summary(&|_| gravity.value, 0),
-        };
-        let correlation = correlation_of(correlation);
+        let is_free = rig.gravity.is_none() && across > 0.0 && scatter.freedom >= 1.0;
+        let has_fitted_gravity = is_free && is_clear;
+        if has_fitted_gravity {
+            gravity = fitted;
+        } else {
+            scatter = Residuals::of(frames, &used, &|_| gravity.value, 0);
+        }
         let own = |flight: &TrackFlight| {
             let (along, across) = flight.curvature(frames);
             if across > 0.0 { along / across } else { gravity.value }
         };
-        let (own_noise, own_freedom, own_correlation) = summary(&own, used.len());
-        let own_noise = own_noise * factor(correlation_of(own_correlation), own_freedom);
+        let of_own = Residuals::of(frames, &used, &own, used.len());
+        let own_noise = of_own.noise * of_own.widening();
         let accelerations: Vec<(f64, Measured)> = used
             .iter()
             .map(|flight| {
@@ -194,9 +208,9 @@ impl<'a> Fit<'a> {
             accelerations,
             is_distorted: false,
             drift_uncertainty: 0.0,
-            noise,
-            correlation,
-            widening: factor(correlation, freedom),
+            noise: scatter.noise,
+            correlation: scatter.correlation,
+            widening: scatter.widening(),
             air: None,
             more: None,
             rescaled: None,

@@ -84,29 +84,7 @@ pub(super) fn flights(
     rig: &Rig,
     warnings: &mut Vec<String>,
 ) -> Vec<Option<TrackFlight>> {
-    let n = frames.times.len();
-    let contact = rig.contact_time().value;
-    let starts = std::iter::once(None).chain(minima.iter().copied().map(Some));
-    let ends = minima.iter().copied().map(Some).chain([None]);
-    let spans = starts.zip(ends).map(|(start, end)| {
-        let is_free = |k: &usize| {
-            let away = |bounce: Option<usize>| {
-                bounce.is_none_or(|bounce| {
-                    *k != bounce && (frames.times[*k] - frames.times[bounce]).abs() >= contact
-                })
-            };
-            away(start) && away(end)
-        };
-        (start.unwrap_or(0)..end.map_or(n, |end| end + 1)).filter(is_free).collect()
-    });
-    let mut spans: Vec<Vec<usize>> = spans.collect();
-    // After the last bounce that is clear, another one may follow near the plate.
-    if let (Some(span), Some(bounce)) = (spans.last_mut(), minima.last()) {
-        let is_near = |k: &usize| frames.heights[*k] < frames.heights[*bounce] + rise;
-        while span.last().is_some_and(is_near) {
-            span.pop();
-        }
-    }
+    let spans = free_spans(frames, minima, rise, rig.contact_time().value);
     let is_long = |span: &Vec<usize>| span.len() >= FEWEST_FRAMES;
     let inner: Vec<f64> = match spans.len() {
         0..=2 => Vec::new(),
@@ -154,7 +132,46 @@ pub(super) fn flights(
         is_parabola.then(|| TrackFlight::of(frames, span))
     };
     let mut flights: Vec<Option<TrackFlight>> = spans.into_iter().enumerate().map(flight).collect();
-    // A ball at rest or in a hand is a parabola with another g.
+    warnings.extend(leave_other_gravity_out(frames, minima, &mut flights, usual));
+    flights
+}
+
+/// Returns the frames before, between and after the lowest ones that are not in contact for this time, s.
+fn free_spans(frames: &Frames, minima: &[usize], rise: f64, contact: f64) -> Vec<Vec<usize>> {
+    let n = frames.times.len();
+    let starts = std::iter::once(None).chain(minima.iter().copied().map(Some));
+    let ends = minima.iter().copied().map(Some).chain([None]);
+    let spans = starts.zip(ends).map(|(start, end)| {
+        let is_free = |k: &usize| {
+            let away = |bounce: Option<usize>| {
+                bounce.is_none_or(|bounce| {
+                    *k != bounce && (frames.times[*k] - frames.times[bounce]).abs() >= contact
+                })
+            };
+            away(start) && away(end)
+        };
+        (start.unwrap_or(0)..end.map_or(n, |end| end + 1)).filter(is_free).collect()
+    });
+    let mut spans: Vec<Vec<usize>> = spans.collect();
+    // After the last bounce that is clear, another one may follow near the plate.
+    if let (Some(span), Some(bounce)) = (spans.last_mut(), minima.last()) {
+        let is_near = |k: &usize| frames.heights[*k] < frames.heights[*bounce] + rise;
+        while span.last().is_some_and(is_near) {
+            span.pop();
+        }
+    }
+    spans
+}
+
+/// Removes flights that fall with another g than the others, as a ball at rest or in a hand does, and returns warnings of those between
+/// bounces; `usual` is the misfit of the others, m.
+fn leave_other_gravity_out(
+    frames: &Frames,
+    minima: &[usize],
+    flights: &mut [Option<TrackFlight>],
+    usual: f64,
+) -> Vec<String> {
+    let (last, mut warnings) = (flights.len() - 1, Vec::new());
     let mut own: Vec<(f64, f64)> =
         flights.iter().flatten().map(|one| one.curvature(frames)).collect();
     own.sort_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)));
@@ -164,7 +181,7 @@ pub(super) fn flights(
         sum += it.1;
         sum >= half
     });
-    let Some(gravity) = middle.map(|it| it.0 / it.1) else { return flights };
+    let Some(gravity) = middle.map(|it| it.0 / it.1) else { return warnings };
     for (k, slot) in flights.iter_mut().enumerate() {
         let Some((along, across)) = slot.as_ref().map(|one| one.curvature(frames)) else {
             continue;
@@ -180,7 +197,7 @@ pub(super) fn flights(
             *slot = None;
         }
     }
-    flights
+    warnings
 }
 
 /// Removes frames at the outer end of a span in which a hand holds the ball or it rests: while the mean of the outermost ones is off the

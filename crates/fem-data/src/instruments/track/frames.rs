@@ -26,6 +26,14 @@ pub struct Frames {
 }
 
 impl Frames {
+    /// Takes a velocity (m/s) with which the plate moves in the picture out of the heights.
+    pub(super) fn take_drift_out(&mut self, drift: f64) {
+        let start = self.times[0];
+        for (y, t) in self.heights.iter_mut().zip(&self.times) {
+            *y -= drift * (t - start);
+        }
+    }
+
     /// Reads the frames of a table. Frames without a time or a height are skipped.
     ///
     /// # Errors

@@ -97,11 +97,11 @@ impl Track {
         let mut warnings = Vec::new();
         let mut flights = flights(&frames, &minima, rise, rig, &mut warnings);
         let n_out = n_all - frames.times.len() + leave_outliers_out(&frames, &mut flights);
-        match n_out {
-            0 => {}
-            1 => warnings.push("1 frame far off its parabola is left out".to_string()),
-            n => warnings.push(format!("{n} frames far off their parabolas are left out")),
-        }
+        warnings.extend(match n_out {
+            0 => None,
+            1 => Some("1 frame far off its parabola is left out".to_string()),
+            n => Some(format!("{n} frames far off their parabolas are left out")),
+        });
         let mut drift = 0.0;
         let mut fit = Fit::of(&frames, &flights, &minima, rig);
         if fit.leave_wrong_sides_out(&frames, &mut flights) {
@@ -109,10 +109,7 @@ impl Track {
         }
         if let Some(velocity) = fit.drift() {
             drift = velocity.value;
-            let start = frames.times[0];
-            for (y, t) in frames.heights.iter_mut().zip(&frames.times) {
-                *y -= drift * (t - start);
-            }
+            frames.take_drift_out(drift);
             for flight in flights.iter_mut().flatten() {
                 *flight = TrackFlight::of(&frames, std::mem::take(&mut flight.frames));
             }
@@ -127,20 +124,14 @@ impl Track {
         let scale = fit.check_scale(&frames.name, rig, &mut warnings)?.hypot(spread);
         let mut impacts: Vec<Impact> =
             (0..minima.len()).filter_map(|k| fit.impact(k, scale)).collect();
-        impacts.retain(|impact| match impact.impossible() {
-            Some(reason) => {
-                warnings.push(format!("the impact at {:.4} s is left out: {reason}", impact.time));
-                false
-            }
-            None => true,
-        });
+        warnings.extend(impacts.iter().filter_map(Impact::left_out));
+        impacts.retain(|impact| impact.impossible().is_none());
         if impacts.is_empty() {
             let message = "no bounce has a flight before and after it that are parabolas";
-            let mut help = warnings.join("; ");
-            if help.is_empty() {
-                help =
-                    format!("a flight needs {FEWEST_FRAMES} frames: take more frames per second");
-            }
+            let help = match warnings.is_empty() {
+                true => format!("a flight needs {FEWEST_FRAMES} frames: take more per second"),
+                false => warnings.join("; "),
+            };
             return Err(DataError::new(&frames.name, message).with_help(help));
         }
         let Fit { flights, gravity, has_fitted_gravity, noise, correlation, air, .. } = fit;

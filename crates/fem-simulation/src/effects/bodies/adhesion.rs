@@ -249,7 +249,7 @@ fn loss(scene: &Scene, adhesion: &Adhesion, estimate: &Estimate) -> f64 {
 
 /// Returns the restitution without adhesion by Ting's prediction; 1 if it has none.
 fn restitution_without(scene: &Scene, estimate: &Estimate) -> f64 {
-    let computed = SimplifiedScene::quiet(scene, estimate);
-    let prediction = computed.and_then(|scene| TingPrediction::of(&scene, estimate, false).ok());
+    let computed = SimplifiedScene::quiet(scene.clone(), estimate);
+    let prediction = computed.and_then(|regime| TingPrediction::of(&regime, false).ok());
     prediction.map_or(1.0, |prediction| prediction.restitution)
 }

@@ -11,9 +11,9 @@ use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
-use crate::estimate::Estimate;
 use crate::estimate::plate_impact::thin_plate_mobility;
 use crate::estimate::viscous_flow::widest_contact;
+use crate::estimate::{Estimate, Regime};
 use crate::quantity_errors::QuantityErrors;
 
 /// Coefficient of (a/R*)² in the errors of contact time and peak force: Ting's model with finite size agrees with finite
@@ -58,7 +58,8 @@ impl FiniteSizeEffect {
     /// approach changes the stiffness by (1 − s)^(−3/2), and contact time and force follow with the power 2/5. For spheres
     /// that relax to 3 % and less it gives 6 to 12 % where 5 to 10 % were computed. The loss of restitution by relaxation and
     /// to a plate changes with the contact time, and the thickness of the plate adds its own change.
-    fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn by_stiffness(regime: &Regime, estimate: &Estimate) -> Option<NeglectError> {
+        let scene = &regime.scene;
         let share = Self::share(scene, estimate).filter(|share| *share < MAX_KNOWN)?;
         let change = 0.6 * share;
         let by_size = NeglectError::shares(estimate, change, change);
@@ -66,8 +67,8 @@ impl FiniteSizeEffect {
             let restitution = Some(change * relaxed_loss(scene, estimate));
             return Some(NeglectError { restitution, ..by_size });
         }
-        let thin = TingPrediction::of(scene, estimate, false).ok()?;
-        let by_thickness = TingPrediction::on_thick_plate(scene, estimate).ok()?.change_from(&thin);
+        let thin = TingPrediction::of(regime, false).ok()?;
+        let by_thickness = TingPrediction::on_thick_plate(regime).ok()?.change_from(&thin);
         let restitution = Some(change * (1.0 - thin.restitution));
         Some(NeglectError { restitution, ..by_size }.plus(&by_thickness))
     }
@@ -91,12 +92,11 @@ impl FiniteSizeEffect {
 
 impl Effect for FiniteSizeEffect {
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let scene = SimplifiedScene::quiet(scene, estimate)?;
-        let [with, without] =
-            [true, false].map(|size| TingPrediction::of(&scene, estimate, size).ok());
+        let regime = SimplifiedScene::quiet(scene.clone(), estimate)?;
+        let [with, without] = [true, false].map(|size| TingPrediction::of(&regime, size).ok());
         match with.zip(without) {
             Some((with, without)) => Some(with.change_from(&without)),
-            None => Self::by_stiffness(&scene, estimate),
+            None => Self::by_stiffness(&regime, estimate),
         }
     }
 

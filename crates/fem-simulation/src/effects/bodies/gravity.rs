@@ -20,8 +20,7 @@ use crate::effects::decision::{Effect, Gravity};
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
-const TIME_SHARE: f64 = 0.375;
-const FORCE_SHARE: f64 = 1.2;
+const TIME_AND_FORCE: [f64; 2] = [0.375, 1.2];
 /// Largest first number and square of the second at which gravity does not change the printed results of the contact.
 const NEGLIGIBLE_GRAVITY: f64 = 1e-6;
 
@@ -52,6 +51,7 @@ impl Effect for Gravity {
         let acceleration = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
         let hertz = &estimate.hertz;
         let share = acceleration * hertz.max_approach() / hertz.approach_speed().powi(2);
-        Some(NeglectError::shares(estimate, TIME_SHARE * share, FORCE_SHARE * share))
+        let [time, force] = TIME_AND_FORCE.map(|of| of * share);
+        Some(NeglectError::shares(estimate, time, force))
     }
 }

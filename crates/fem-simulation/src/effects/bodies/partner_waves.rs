@@ -18,8 +18,8 @@ use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, NamedEffect, PartnerWaves, PlateBending, is_needed};
 use crate::effects::ting_prediction::{TingPrediction, relaxes};
-use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
+use crate::estimate::{Estimate, Regime};
 use crate::quantity_errors::QuantityErrors;
 
 /// Above this T c_s/D waves return in time and give their energy back.
@@ -193,27 +193,27 @@ impl Effect for PartnerWaves {
     /// correction, it is the loss of restitution by a half-space.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
-        let with = SimplifiedScene::quiet(&self.switched(scene, switch), estimate)?;
-        let without = self.switched(&with, Some(Switch::Off));
-        let estimate = estimate.of_variant(&with, estimate.hertz.approach_speed()).ok()?;
-        if Self::radiating(&with, &estimate) != [None, None] {
+        let regime = SimplifiedScene::quiet(self.switched(scene, switch), estimate)?;
+        let Regime { scene: with, estimate } = &regime;
+        if Self::radiating(with, estimate) != [None, None] {
             // A model without the term has the error of a model with it.
-            let is_term = Self::radiating_at_rest(&with, &estimate) != [None, None];
-            let whole = with.clone().with_model(ModelChoice::Fem);
-            let own = if is_term { &with } else { &whole };
-            let impacts = [own, &without].map(|scene| TingPrediction::of(scene, &estimate, false));
+            let is_term = Self::radiating_at_rest(with, estimate) != [None, None];
+            let whole = || estimate.regime_of(with.clone().with_model(ModelChoice::Fem));
+            let own = if is_term { Ok(regime.clone()) } else { whole() };
+            let without = estimate.regime_of(self.switched(with, Some(Switch::Off)));
+            let impacts = [own, without].map(|regime| TingPrediction::of(&regime?, false));
             if let [Ok(one), Ok(without)] = impacts {
-                let missing = missing_of_term(&crossed(&with, &estimate), &estimate);
+                let missing = missing_of_term(&crossed(with, estimate), estimate);
                 let change = one.change_from(&without);
                 let whole = |part: f64| (part * (1.0 + missing)).clamp(-1.0, 1.0);
                 return Some(NeglectError { restitution: change.restitution.map(whole), ..change });
             }
             // Relaxation takes part of the energy of the waves.
-            if relaxes(&with) {
+            if relaxes(with) {
                 return None;
             }
         }
-        let share = radiated(&crossed(&with, &estimate), &estimate);
+        let share = radiated(&crossed(with, estimate), estimate);
         (share > 0.0).then(|| NeglectError::restitution(lost(share)))
     }
 

@@ -66,13 +66,15 @@ impl PlateBending {
         let side = scene.bodies().iter().position(|body| body.plate().is_some())?;
         let bent = PlateBending.switched(scene, Some(Switch::On));
         let half_space = PlateBending.switched(&bent.with_half_space(side), None);
-        let sized = [&bent, &half_space].map(|scene| TingPrediction::of(scene, estimate, true));
+        let [bent, half_space] = [bent, half_space].map(|scene| estimate.regime_of(scene).ok());
+        let (bent, half_space) = (bent?, half_space?);
+        let sized = [&bent, &half_space].map(|regime| TingPrediction::of(regime, true));
         let [bent, half_space] = match sized {
             [Ok(bent), Ok(half_space)] => [bent, half_space],
             // A contact too wide for the first order of the spheres' size.
             _ => [
-                TingPrediction::on_thick_plate(&bent, estimate).ok()?,
-                TingPrediction::of(&half_space, estimate, false).ok()?,
+                TingPrediction::on_thick_plate(&bent).ok()?,
+                TingPrediction::of(&half_space, false).ok()?,
             ],
         };
         Some(bent.change_from(&half_space))

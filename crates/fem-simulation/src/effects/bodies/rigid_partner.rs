@@ -87,7 +87,7 @@ impl Effect for RigidPartner {
 fn change(scene: &Scene, estimate: &Estimate) -> NeglectError {
     let [rigid, whole] =
         [Switch::On, Switch::Off].map(|switch| RigidPartner.switched(scene, Some(switch)));
-    change_between(&rigid, &whole, estimate)
+    change_between(rigid, whole, estimate)
 }
 
 fn rejected(message: &str) -> Rejection {

@@ -59,7 +59,7 @@ impl Effect for SurfaceSlip {
             return Some(NeglectError::NOTHING);
         }
         let [with, without] = [Switch::On, Switch::Off].map(|to| self.switched(scene, Some(to)));
-        Some(change_between(&with, &without, estimate))
+        Some(change_between(with, without, estimate))
     }
 
     /// The next order of the series spring is neglected; elements compute the slip fully.

@@ -4,6 +4,7 @@
 //! Decided by the approach speed over the shear wave speed.
 
 use fem_case::{Body, ModelChoice, Scene};
+use fem_laws::RelativeError;
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
@@ -25,20 +26,18 @@ const LOSS_PER_MACH: f64 = 0.1;
 /// Factor on the loss by inertia in error bars, since [`LOSS_PER_MACH`] is the least loss: explicit elements of elastic pairs with
 /// restitutions of 0.979 to 0.996 lost up to a third more.
 const MARGIN_OF_LOSS: f64 = 1.5;
-/// Relative increase of the contact time over the delay of the deformation ([`slowness`]), from explicit elements or twelve
-/// modes against none, within a factor of 2.5: elastic balls on a wall at 0.3 to 40 % of the shear wave speed, and pairs at
-/// 1.5 to 18 %.
-const LENGTHENING_PER_DELAY: f64 = 2.2;
-/// Relative decrease of the peak force over the same delay.
-const FORCE_DECREASE_PER_DELAY: f64 = 5.0;
+/// Increase of the contact time and decrease of the peak force over the delay of the deformation ([`slowness`]), from explicit
+/// elements or twelve modes against none, within a factor of 2.5: elastic balls on a wall at 0.3 to 40 % of the shear wave
+/// speed, and pairs at 1.5 to 18 %.
+const PER_DELAY: RelativeError =
+    RelativeError { restitution: 0.0, contact_time: 2.2, peak_force: 5.0 };
 /// Relative increase of the loss over the loss by relaxation. Spheres that relax to 0.1 to 3 % lost 0.0048, 0.0021, 0.0019
 /// and 0.0023 of the restitution by inertia, where this gives 0.0051, 0.0029, 0.0011 and 0.0022.
 const OF_RELAXED: f64 = 2.0;
 /// The same changes over [`Estimate::effective_ringing`], for bodies that ring because their bulk waves are slow: from
 /// explicit elements of the glass pair with ν = −0.99.
-const RINGING_LOSS: f64 = 0.05;
-const RINGING_LENGTHENING: f64 = 0.035;
-const RINGING_WEAKENING: f64 = 0.25;
+const PER_RINGING: RelativeError =
+    RelativeError { restitution: 0.05, contact_time: 0.035, peak_force: 0.25 };
 
 impl Effect for Vibration {
     fn relevance(&self, _: &Scene, estimate: &Estimate) -> Option<Relevance> {
@@ -57,11 +56,11 @@ impl Effect for Vibration {
         let ringing = estimate.effective_ringing;
         let lengths = NeglectError::shares(
             estimate,
-            LENGTHENING_PER_DELAY * slowness + RINGING_LENGTHENING * ringing,
-            FORCE_DECREASE_PER_DELAY * slowness + RINGING_WEAKENING * ringing,
+            PER_DELAY.contact_time * slowness + PER_RINGING.contact_time * ringing,
+            PER_DELAY.peak_force * slowness + PER_RINGING.peak_force * ringing,
         );
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
-        let loss = loss_by_inertia(scene, estimate) + RINGING_LOSS * ringing;
+        let loss = loss_by_inertia(scene, estimate) + PER_RINGING.restitution * ringing;
         Some(NeglectError { restitution: Some((loss * relaxed).min(1.0)), ..lengths })
     }
 
@@ -135,9 +134,9 @@ impl Vibration {
             warnings.push(format!(
                 "Poisson's ratio is negative: bulk waves are slow and the body rings, which this model neglects: about {} of \
                  the restitution, {} of the contact time and {} of the peak force; use model fem",
-                percent(RINGING_LOSS * estimate.effective_ringing),
-                percent(RINGING_LENGTHENING * estimate.effective_ringing),
-                percent(RINGING_WEAKENING * estimate.effective_ringing)
+                percent(PER_RINGING.restitution * estimate.effective_ringing),
+                percent(PER_RINGING.contact_time * estimate.effective_ringing),
+                percent(PER_RINGING.peak_force * estimate.effective_ringing)
             ));
         }
         if estimate.effective_mach > MACH_LIMIT {

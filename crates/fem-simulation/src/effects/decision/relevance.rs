@@ -34,7 +34,7 @@ pub fn percent(share: f64) -> String {
 /// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
 pub const QUASI_STATIC_LIMIT: f64 = 5e-3;
 /// Approach speed over shear wave speed above which an impact sends shocks.
-pub(in crate::effects) const MACH_LIMIT: f64 = 0.02;
+pub(crate) const MACH_LIMIT: f64 = 0.02;
 
 /// Returns the approach speed over the shear wave speed, as text.
 pub(in crate::effects) fn number(estimate: &Estimate) -> String {

@@ -59,10 +59,10 @@ impl SimplifiedScene {
     /// # Errors
     /// A switch that the scene's bodies do not allow.
     pub fn of(given: &Regime) -> Result<Self, Rejection> {
-        let Regime { scene: given, estimate } = given;
-        let mut computed = Self::without_warnings(given, estimate)?;
+        let mut computed = Self::without_warnings(given)?;
+        let Regime { scene, estimate } = given;
         for (name, transformation) in &mut computed.transformations {
-            let forced = effect_named(name).and_then(|effect| effect.forced(given, estimate));
+            let forced = effect_named(name).and_then(|effect| effect.forced(scene, estimate));
             if let Transformation::Decides(support) = transformation {
                 *support = support.clone().warning(forced);
             }
@@ -71,16 +71,20 @@ impl SimplifiedScene {
     }
 
     /// Returns the transformed variant of an estimated scene for closed forms, or `None` if a switch is not possible.
-    pub fn quiet(given: &Scene, estimate: &Estimate) -> Option<Scene> {
-        let estimate = estimate.of_variant(given, given.approach_speed()).ok()?;
-        Self::without_warnings(given, &estimate).ok().map(|computed| computed.scene)
+    pub fn quiet(given: Scene, estimate: &Estimate) -> Option<Regime> {
+        let given = estimate.regime_of(given).ok()?;
+        let computed = Self::without_warnings(&given).ok()?;
+        match computed.transformations.is_empty() {
+            true => Some(given),
+            false => estimate.regime_of(computed.scene).ok(),
+        }
     }
 
     /// Transforms a scene without warnings about forced switches.
-    fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Rejection> {
-        let mut computed = Self { scene: given.clone(), transformations: Vec::new() };
+    fn without_warnings(given: &Regime) -> Result<Self, Rejection> {
+        let mut computed = Self { scene: given.scene.clone(), transformations: Vec::new() };
         for effect in EFFECTS {
-            if let Some(next) = effect.transform(&computed.scene, estimate)? {
+            if let Some(next) = effect.transform(&computed.scene, &given.estimate)? {
                 computed.scene = next.scene;
                 computed.transformations.push((effect.name(), next.outcome));
             }

@@ -104,7 +104,7 @@ impl Effect for Viscoelasticity {
             Some(folded) => elastic(&folded.scene, materials(&folded.scene)),
             None => self.switched(scene, Some(Switch::Off)),
         };
-        Some(change_between(&with, &without, estimate))
+        Some(change_between(with, without, estimate))
     }
 
     /// A law whose damping is the slow limit of the materials differs from them where they do not relax within the contact.
@@ -126,9 +126,9 @@ impl Effect for Viscoelasticity {
 /// Returns the distances of a law's quantities from those of Ting's model of the same bodies.
 fn error_of_slow_limit(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
     let speed = estimate.hertz.approach_speed();
-    let computed = SimplifiedScene::quiet(scene, estimate)?;
-    let ting = TingPrediction::of(&computed, estimate, false).ok()?;
-    let own = TingPrediction::from(&Reduced::new(&computed).ok()?.impact(speed).ok()?);
+    let computed = SimplifiedScene::quiet(scene.clone(), estimate)?;
+    let ting = TingPrediction::of(&computed, false).ok()?;
+    let own = TingPrediction::from(&Reduced::of(&computed).ok()?.impact(speed).ok()?);
     Some(own.change_from(&ting).of_all_quantities(estimate))
 }
 

@@ -19,6 +19,7 @@
 //! default settings and v/c_s from 3e-3 to 0.08, within a factor of three.
 
 use fem_case::{Body, ContactMethod, Scene, Switch, defaults};
+use fem_laws::RelativeError;
 use fem_material::Material;
 
 use crate::effects::decision::neglect_error::EffectStatus;
@@ -29,11 +30,10 @@ use crate::effects::decision::{BulkViscosity, Effect, FiniteStrain};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
-/// Relative decrease of the peak force, which is a mean without ringing, over (v/c_s)^(3/5); the largest force of a single
-/// step decreases by 0.6.
-const FORCE_DECREASE_BY_SMOOTHING: f64 = 0.02;
-/// Loss of restitution over (v/c_s)^(3/5) (c_s/c_p)⁴.
-const LOSS_OF_RESTITUTION: f64 = 0.005;
+/// Loss of restitution over (v/c_s)^(3/5) (c_s/c_p)⁴, and relative decrease of the peak force, which is a mean without ringing,
+/// over (v/c_s)^(3/5); the largest force of a single step decreases by 0.6.
+const BY_SMOOTHING: RelativeError =
+    RelativeError { restitution: 0.005, contact_time: 0.0, peak_force: 0.02 };
 
 /// Largest approach speed over shear wave speed for these coefficients, which were measured on pairs, walls and
 /// half-spaces.
@@ -100,9 +100,9 @@ impl Effect for BulkViscosity {
         };
         let largest = materials.map(squared_ratio).fold(0.0, f64::max);
         let growth = Some(estimate.mach).filter(|mach| *mach <= MAX_MACH)?.powf(0.6);
-        let smoothing = if rings(scene, false) { FORCE_DECREASE_BY_SMOOTHING } else { 0.0 };
+        let smoothing = if rings(scene, false) { BY_SMOOTHING.peak_force } else { 0.0 };
         let changes = NeglectError::shares(estimate, 0.0, smoothing * growth);
-        let loss = NeglectError::restitution(LOSS_OF_RESTITUTION * growth * largest.powi(2));
+        let loss = NeglectError::restitution(BY_SMOOTHING.restitution * growth * largest.powi(2));
         Some(NeglectError { restitution: loss.restitution, contact_time_s: None, ..changes })
     }
 }

@@ -15,8 +15,9 @@ use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, MassScaling};
 use crate::estimate::Estimate;
 
-/// Largest moved mass over the lighter body's mass; at 1 % the error of the peak force is up to half of that.
-const MAX_MOVED_MASS: f64 = 1e-2;
+/// Largest moved mass over the lighter body's mass, by default and without a warning: at 1 % the error of the peak force is up
+/// to half of that, and bodies with relaxation times near the time step are more sensitive.
+pub(crate) const MAX_MOVED_MASS: f64 = 1e-2;
 /// Moved mass over that mass below which it is rounding of the node that determines the time step.
 const ROUNDING_OF_MASS: f64 = 1e-12;
 const NOTHING: &str = "no mass is moved";

@@ -1,7 +1,7 @@
 //! Effects of the numerical method, and those that a model either has or lacks without a decision.
 
 mod bulk_viscosity;
-mod mass_scaling;
+pub(crate) mod mass_scaling;
 mod mirror_symmetry;
 
 use fem_case::Scene;

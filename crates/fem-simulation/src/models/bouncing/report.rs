@@ -3,12 +3,11 @@
 use fem_collision::{Bounce, Ending, StaticContact};
 
 use crate::effects::percent;
+use crate::estimate::LARGE_STRAIN;
 use crate::rejection::Rejection;
 
 /// Restitution above which a ball does not come to rest.
 const RESTITUTION_WITHOUT_REST: f64 = 1.0 - 1e-4;
-/// Contact radius over effective radius up to which strains are small.
-const MAX_STRAIN: f64 = 0.1;
 
 /// Returns the warnings for these contacts, this ending, and the largest bound on the influence of
 /// vibrations with the number of its contact.
@@ -40,12 +39,12 @@ pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)
 /// Warns of a static contact that is not small compared with the effective radius (m).
 pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Option<String> {
     let share = contact.contact_radius? / effective_radius;
-    (share > MAX_STRAIN).then(|| {
+    (share > LARGE_STRAIN).then(|| {
         format!(
             "at rest the contact radius is {} of the effective radius; above {} the small-strain \
              model is not accurate",
             percent(share),
-            percent(MAX_STRAIN)
+            percent(LARGE_STRAIN)
         )
     })
 }

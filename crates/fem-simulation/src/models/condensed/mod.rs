@@ -74,10 +74,15 @@ impl Method for CondensedMethod {
     }
 
     /// Returns the case with the defaults of the tables that the model reads.
-    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+    fn resolve(
+        &self,
+        regime: &Regime,
+        plan: Option<&Plan>,
+        file: CaseFile,
+    ) -> Result<CaseFile, Rejection> {
         let options = options(&regime.scene);
         let (time, contact) = (file.time.clone(), file.contact.clone());
-        let mut file = Plan::in_regime(regime)?.resolve(file);
+        let mut file = Plan::known(plan, regime)?.resolve(file);
         file.time = time;
         if !options.penalty_springs {
             file.contact = contact;

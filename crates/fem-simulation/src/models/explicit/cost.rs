@@ -4,9 +4,9 @@ use fem_case::{Body, Scene};
 use fem_explicit::ExplicitBodies;
 use fem_material::{Material, PronySeries};
 
-use crate::effects::{BulkViscosity, FiniteStrain};
+use crate::effects::{BulkViscosity, FiniteStrain, MACH_LIMIT};
 use crate::estimate::approach::expected_duration;
-use crate::estimate::{Estimate, mach};
+use crate::estimate::{Estimate, LARGE_STRAIN, mach};
 use crate::models::condensed::cost::{MAX_BYTES, expected_bytes};
 use crate::models::method::Cost;
 use crate::plan::Plan;
@@ -14,15 +14,24 @@ use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_
 use crate::plan::penalty_compliance::lengthening;
 use crate::rejection::Rejection;
 
-/// Seconds per element update at small strain on one core of 3 GHz, from docs/effects.md. Other machines differ by a
-/// factor.
-const SECONDS_AN_UPDATE: f64 = 6e-9;
-/// Additional seconds per Prony term at small strain.
-const SECONDS_A_BRANCH: f64 = 1e-9;
-/// Seconds per element update at finite strain, with the bounds of the time step.
-const SECONDS_AT_FINITE_STRAIN: f64 = 20e-9;
-/// Additional seconds per Prony term at finite strain.
-const SECONDS_A_BRANCH_AT_FINITE_STRAIN: f64 = 7e-9;
+/// Seconds per element update on one core of 3 GHz, from docs/effects.md. Other machines differ by a factor.
+struct UpdateSeconds {
+    /// Seconds without relaxation.
+    plain: f64,
+    /// Additional seconds per Prony term.
+    of_term: f64,
+}
+
+impl UpdateSeconds {
+    const AT_SMALL_STRAIN: Self = Self { plain: 6e-9, of_term: 1e-9 };
+    /// Includes the bounds of the time step.
+    const AT_FINITE_STRAIN: Self = Self { plain: 20e-9, of_term: 7e-9 };
+
+    fn of(&self, n_terms: f64) -> f64 {
+        self.plain + n_terms * self.of_term
+    }
+}
+
 /// Additional seconds per element update with bulk viscosity.
 const SECONDS_OF_BULK_VISCOSITY: f64 = 5e-9;
 /// Seconds per step of springs between deformed surfaces.
@@ -64,19 +73,15 @@ pub(super) fn cost(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Result
 
 /// Element updates of the reference run with elements twice as long over those of the collision.
 pub(crate) const REFERENCE_UPDATES: f64 = 0.125;
-/// Impact speed over the shear wave speed from which condensed bodies underestimate the discretisation error of explicit
-/// elements: at twice this speed it is 1.4 % of the contact time for rubber on a wall, where they have 0.3 %.
-const MACH_OF_OWN_REFERENCE: f64 = 0.02;
-/// Contact radius over effective radius from which they underestimate it at finite strain.
-const STRAIN_OF_OWN_REFERENCE: f64 = 0.1;
 
 /// Returns whether the discretisation error of explicit elements needs a reference run of explicit elements: condensed
-/// bodies have neither large strains nor waves, do not flow, and have no plate that bends.
+/// bodies have neither large strains nor waves, do not flow, and have no plate that bends. At twice the limit of the speed the
+/// error is 1.4 % of the contact time for rubber on a wall, where they have 0.3 %.
 pub(crate) fn needs_own_reference(estimate: &Estimate, is_at_finite_strain: bool) -> bool {
     let Estimate { mach, strain, flow, bends, .. } = *estimate;
     // A strain that is NaN counts as large.
-    let is_large = is_at_finite_strain && (strain.is_nan() || strain >= STRAIN_OF_OWN_REFERENCE);
-    is_large || bends || mach >= MACH_OF_OWN_REFERENCE || flow.is_some()
+    let is_large = is_at_finite_strain && (strain.is_nan() || strain >= LARGE_STRAIN);
+    is_large || bends || mach >= MACH_LIMIT || flow.is_some()
 }
 
 /// Adds the reference runs to the seconds of a run.
@@ -109,8 +114,8 @@ fn seconds_a_step(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> f64 {
         if BulkViscosity::is_on(scene, whole, is_finite) { SECONDS_OF_BULK_VISCOSITY } else { 0.0 };
     let seconds = model.bodies().iter().zip(scene.bodies()).map(|(body, named)| {
         let branches = n_branches(named) as f64;
-        let small = SECONDS_AN_UPDATE + branches * SECONDS_A_BRANCH;
-        let finite = SECONDS_AT_FINITE_STRAIN + branches * SECONDS_A_BRANCH_AT_FINITE_STRAIN;
+        let small = UpdateSeconds::AT_SMALL_STRAIN.of(branches);
+        let finite = UpdateSeconds::AT_FINITE_STRAIN.of(branches);
         let [n, n_finite] = [body.n_elements(), body.n_finite_elements()].map(|n| n as f64);
         n * (small + viscous) + n_finite * (finite - small)
     });

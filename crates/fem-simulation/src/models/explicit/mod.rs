@@ -55,9 +55,14 @@ impl Method for ExplicitMethod {
         support(effect, scene, estimate, None)
     }
 
-    fn resolve(&self, regime: &Regime, file: CaseFile) -> Result<CaseFile, Rejection> {
+    fn resolve(
+        &self,
+        regime: &Regime,
+        plan: Option<&Plan>,
+        file: CaseFile,
+    ) -> Result<CaseFile, Rejection> {
         let is_finite = FiniteStrain::is_on(&regime.scene, &regime.estimate);
-        let mut file = Plan::in_regime(regime)?.resolve(file);
+        let mut file = Plan::known(plan, regime)?.resolve(file);
         // Contact between deformed surfaces has springs of its own.
         if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
             contact.method = None;

@@ -27,6 +27,7 @@ use crate::effects::{
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::{Estimate, Regime};
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
+use crate::plan::Plan;
 use crate::rejection::Rejection;
 
 /// The reduced methods.
@@ -70,7 +71,12 @@ impl Method for ReducedMethod {
         impact.map(|_| ()).map_err(|error| rejected(&regime.scene, &error))
     }
 
-    fn resolve(&self, regime: &Regime, mut file: CaseFile) -> Result<CaseFile, Rejection> {
+    fn resolve(
+        &self,
+        regime: &Regime,
+        _: Option<&Plan>,
+        mut file: CaseFile,
+    ) -> Result<CaseFile, Rejection> {
         let scene = &regime.scene;
         let table = match *scene.model() {
             ModelChoice::Hertz { finite_size } => {

@@ -36,7 +36,7 @@ use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::support::{Adequacy, ConsideredModel, Support};
 use crate::effects::decision::{Effect, FiniteStrain, PartnerWaves};
 use crate::effects::ting_prediction::relaxed_loss;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, LARGE_STRAIN};
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
@@ -50,9 +50,6 @@ const OF_RELAXED_LOSS: f64 = 0.3;
 /// The same ratio for the loss by waves: their energy is proportional to T⁻³ at the same impulse.
 const RADIATED_OVER_TIME: f64 = 2.0;
 
-/// Contact radius over effective radius from which all elements of a body are at finite strain, since strains fall little
-/// up to the body's end.
-const STRAIN_OF_ALL_ELEMENTS: f64 = 0.1;
 /// Approach speed over the shear wave speed from which all elements are, too, since waves carry strains of this size
 /// through the body.
 const MACH_OF_ALL_ELEMENTS: f64 = 1e-3;
@@ -60,11 +57,9 @@ const MACH_OF_ALL_ELEMENTS: f64 = 1e-3;
 /// 7 % of the change of the peak force came from beyond two contact radii, 2.8 % from beyond three and 0.5 % from beyond
 /// five and a half: 0.6 to 0.9 of (a/R)³.
 const LEFT_FAR_AWAY: f64 = 0.03;
-/// Number of contact radii within which all elements are at finite strain at any tolerance.
+/// Number of contact radii within which all elements are at finite strain, at any tolerance and where a body flows: with 3 the
+/// restitution after flow is that of bodies that are at finite strain throughout, with 1.5 it is wrong by 5 %.
 const MIN_RADIUS_OVER_CONTACT: f64 = 3.0;
-/// The same number where a body flows: with 3 the restitution is that of bodies that are at finite strain throughout, with
-/// 1.5 it is wrong by 5 %.
-const RADIUS_OF_FLOW_OVER_CONTACT: f64 = 3.0;
 
 impl FiniteStrain {
     /// Returns the laws of both bodies at the strains of an estimate; `None` for a body that is computed at small strain.
@@ -96,10 +91,9 @@ impl FiniteStrain {
             return None;
         }
         if scene.flows() {
-            return Some(RADIUS_OF_FLOW_OVER_CONTACT * estimate.contact_radius);
+            return Some(MIN_RADIUS_OVER_CONTACT * estimate.contact_radius);
         }
-        let is_near =
-            estimate.strain < STRAIN_OF_ALL_ELEMENTS && estimate.mach < MACH_OF_ALL_ELEMENTS;
+        let is_near = estimate.strain < LARGE_STRAIN && estimate.mach < MACH_OF_ALL_ELEMENTS;
         let change = departure(scene, estimate).over(&scene.accuracy());
         let radii = (change / LEFT_FAR_AWAY).cbrt().max(MIN_RADIUS_OVER_CONTACT);
         is_near.then_some(radii * estimate.contact_radius)

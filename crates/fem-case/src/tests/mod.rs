@@ -1,30 +1,45 @@
-//! JSON schemas of case and sweep files, generated from the structs that read them, for editors that complete keys and mark
-//! errors.
+//! The shipped JSON schemas of case and sweep files, for editors that complete keys and mark errors, are those of the structs
+//! that read the files.
 //!
 //! A schema knows keys, types, words, units, most ranges and which keys exclude each other. Rules
 //! across the whole case, such as bodies that never meet, are checked only by the reader: a case that satisfies the schema
 //! may still be rejected.
 
-pub(crate) mod quantity_pattern;
-pub(crate) mod rules;
+mod quantity_pattern;
+mod rules;
 
 use std::borrow::Cow;
+use std::{env, fs};
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
-use crate::json_schema::quantity_pattern::{pattern, temperature_pattern};
-use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Time};
+use self::quantity_pattern::{pattern, temperature_pattern};
+use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Stress, Time};
 use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::schema::{
-    CaseFile, HardeningTable, LawTable, ModelTable, SnapshotLabel, SnapshotsValue,
+    CaseFile, FlowPoints, HardeningTable, LawTable, ModelTable, SnapshotLabel, SnapshotsValue,
 };
 use crate::sweep::file::SweepFile;
 
+/// With `UPDATE=1` in the environment the test writes the files instead.
+#[test]
+fn shipped_schemas_are_current() {
+    for (name, schema) in [("case", of_cases()), ("sweep", of_sweeps())] {
+        let path = format!("{}/schemas/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let text = format!("{schema:#}\n");
+        if env::var_os("UPDATE").is_some() {
+            fs::write(&path, &text).unwrap();
+        }
+        let is_current = fs::read_to_string(&path).is_ok_and(|shipped| shipped == text);
+        assert!(is_current, "UPDATE=1 cargo test -p fem-case --features schema writes {path}");
+    }
+}
+
 /// Returns the schema of a case file.
-pub fn of_cases() -> Value {
+fn of_cases() -> Value {
     let mut schema = schema_of::<CaseFile>("A case of fem-run");
     rules::add_to(&mut schema, LawTable::NAMES);
     or_name(&mut schema, "/properties/model", ModelTable::NAMES);
@@ -41,7 +56,7 @@ fn or_name(schema: &mut Value, pointer: &str, names: &[&str]) {
 }
 
 /// Returns the schema of a sweep file.
-pub fn of_sweeps() -> Value {
+fn of_sweeps() -> Value {
     schema_of::<SweepFile>("A sweep of fem-run")
 }
 
@@ -140,5 +155,25 @@ impl JsonSchema for ToleranceValue {
         let share = generator.subschema_for::<Quantity<Number>>();
         let table = generator.subschema_for::<ToleranceTable>();
         json_schema!({ "anyOf": [share, table] })
+    }
+}
+
+impl JsonSchema for FlowPoints {
+    fn schema_name() -> Cow<'static, str> {
+        "FlowPoints".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let strain = generator.subschema_for::<Quantity<Number>>();
+        let stress = generator.subschema_for::<Quantity<Stress>>();
+        json_schema!({
+            "anyOf": [
+                { "type": "string", "description": "path of a CSV file" },
+                {
+                    "type": "array",
+                    "items": { "type": "array", "items": [strain, stress], "minItems": 2, "maxItems": 2 },
+                },
+            ],
+        })
     }
 }

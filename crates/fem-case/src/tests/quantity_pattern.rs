@@ -5,7 +5,7 @@
 //! accepted. There is no look-around, which some validators lack.
 
 use crate::quantity::temperature::SCALES;
-use crate::quantity::unit_table::symbols;
+use crate::quantity::unit_table::{PREFIXES, UNITS};
 
 /// A number, with an ASCII or a Unicode minus sign.
 const NUMBER: &str = r"\s*[-+−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
@@ -75,4 +75,24 @@ fn entangled() -> String {
     let product = format!(r"((\s*[*·⋅×]\s*|\s+){any}|\s*/?\s*{negative}|\s*/\s*\({any})");
     let bare = format!(r"\s*/?\s*({negative}|\({any})");
     format!(r"({first}(\s*/\s*{any})*{product}|{bare})(\s*[/*·⋅×]?\s*{any})*")
+}
+
+/// Returns a regular expression of all symbols whose dimension (metre, kilogram, second, byte) satisfies a condition; empty
+/// if there are none.
+fn symbols(is_one: impl Fn([i32; 4]) -> bool) -> String {
+    let of = |prefixable: bool| {
+        let units = UNITS.iter().filter(|unit| is_one(unit.scale.dimension));
+        let symbols: Vec<_> =
+            units.filter(|unit| unit.prefixable == prefixable).map(|unit| unit.symbol).collect();
+        symbols.join("|")
+    };
+    let prefixes: Vec<_> = PREFIXES.iter().map(|(prefix, _)| *prefix).collect();
+    let (plain, prefixable) = (of(false), of(true));
+    let prefixed = format!("({})?({prefixable})", prefixes.join("|"));
+    match (plain.is_empty(), prefixable.is_empty()) {
+        (true, true) => String::new(),
+        (false, true) => format!("({plain})"),
+        (true, false) => format!("({prefixed})"),
+        (false, false) => format!("({plain}|{prefixed})"),
+    }
 }
