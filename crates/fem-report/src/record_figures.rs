@@ -79,7 +79,7 @@ fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
     if let Some(scatter) = &bounces.scatter {
         let largest =
             scatter.residuals.iter().flatten().fold(0.0f64, |most, it| most.max(it.abs()));
-        let residual = QuantityAxis::linear("flight time less a smooth series", "s", largest);
+        let residual = QuantityAxis::linear("residual of flight time", "s", largest);
         let points =
             bounces.spans.iter().zip(&scatter.residuals).filter_map(|(span, residual_s)| {
                 let middle = 0.5 * (instants[span.from] + instants[span.to]);

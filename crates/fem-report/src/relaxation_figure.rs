@@ -75,7 +75,7 @@ fn moduli(found: &FoundRelaxation) -> Chart {
 
 fn residuals(found: &FoundRelaxation) -> Chart {
     let x = abscissa(found);
-    let mut chart = Chart::new(x.axis(), Axis::new("measured less series [%]"));
+    let mut chart = Chart::new(x.axis(), Axis::new("residual [%]"));
     for (k, (name, part)) in parts(found).into_iter().enumerate() {
         let off = found.points.iter().filter(|point| part(point) > 0.0).map(|point| {
             let fitted = found.series.moduli(found.table.kind, point.at)[k];

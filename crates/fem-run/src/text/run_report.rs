@@ -18,7 +18,7 @@ use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
 use super::standard_output::{one_line, shown};
-use super::tables::{headed, table};
+use super::tables::{hanging, headed, table};
 
 const NONE: &str = "-";
 const UNKNOWN: &str = "?";
@@ -263,7 +263,7 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         legend += &format!("; restitution: {note}");
     }
     let between = if detail == Detail::All { "\n" } else { "" };
-    format!("{table}{between}{legend}\n")
+    format!("{table}{between}{}\n", hanging(&legend))
 }
 
 /// Returns the head of the column with the discretisation error.

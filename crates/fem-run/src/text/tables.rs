@@ -6,7 +6,9 @@ use fem::fit::cradle::Measured;
 use fem_case::Scene;
 use fem_case::engineering::{show, takes_prefix};
 use fem_mesh::{Quality, SphereMesh};
+use fem_report::number_text::with_error;
 use indicatif::HumanCount;
+use textwrap::{Options, WordSeparator, WordSplitter};
 
 /// Longest cells, in characters, that do not wrap where there is room.
 const SHORT: usize = 28;
@@ -54,7 +56,20 @@ fn laid_out<R: Into<Row>>(
 
 /// Returns a text whose lines break between words at the width of a small terminal.
 pub fn wrapped(text: &str) -> String {
-    textwrap::fill(text, textwrap::Options::new(80).break_words(false))
+    wrapped_at(80, "", text)
+}
+
+/// Returns a text whose lines break between words at the width of the terminal, if there is one, and are indented where one goes on.
+pub fn hanging(text: &str) -> String {
+    let width = Table::new().width().map(usize::from);
+    width.map_or(text.to_string(), |width| wrapped_at(width, "    ", text))
+}
+
+/// Returns a text whose lines have at most this width where words allow it.
+pub fn wrapped_at(width: usize, indent: &str, text: &str) -> String {
+    let options = Options::new(width).subsequent_indent(indent).break_words(false);
+    let options = options.word_separator(WordSeparator::AsciiSpace);
+    textwrap::fill(text, options.word_splitter(WordSplitter::NoHyphenation))
 }
 
 /// Returns such a table below a header, whose cells `|` separates; `>` begins a column with numbers on the right.
@@ -81,13 +96,12 @@ pub fn show_value(value: f64, unit: &str) -> String {
     }
 }
 
-/// Returns `0.9250 ± 0.0031`, with two digits of the uncertainty.
+/// Returns `0.9250 ± 0.0031`, with two digits of the uncertainty where the value has no more than six.
 pub fn show_measured(Measured { value, uncertainty }: Measured, unit: &str) -> String {
     if uncertainty <= 0.0 {
         return format!("{value:.4} {unit}").trim_end().to_string();
     }
-    let digits = (1 - uncertainty.log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{value:.digits$} ± {uncertainty:.digits$} {unit}").trim_end().to_string()
+    format!("{} {unit}", with_error(value, Some(uncertainty))).trim_end().to_string()
 }
 
 /// Returns the size and the quality of both meshes; a rigid body has none.
