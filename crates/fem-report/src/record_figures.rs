@@ -146,7 +146,7 @@ fn track_charts(track: &Track) -> Vec<Chart> {
     };
     let picked = track.impacts.iter().map(level).collect();
     record = record.with(Curve::points("bounce", picked).like_curve(1));
-    let residual = QuantityAxis::linear("frame less parabola", "m", 3.0 * track.noise);
+    let residual = QuantityAxis::linear("residual of frame", "m", 3.0 * track.noise);
     let values: Vec<f64> = deviations.iter().map(|it| it.1).collect();
     let kept = thinned(&values).into_iter();
     let kept = kept.map(|k| (time.scaled(deviations[k].0), residual.scaled(deviations[k].1)));

@@ -121,7 +121,7 @@ pub fn effects_in_short<'a>(
         false => format!("; above {}: {}", tolerance_words(case), mattering.join(", ")),
     };
     let plural = if off.len() == 1 { "" } else { "s" };
-    let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
+    let off = hanging(&format!("{} effect{plural} off{above}; -v lists them\n", off.len()));
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
     rows + &off
 }

@@ -42,13 +42,17 @@ fn laid_out<R: Into<Row>>(
         }
     }
     let unwrapped = |[word, cell]: &[usize; 2]| if *cell <= SHORT { *cell } else { *word };
-    let width: usize = widths.iter().map(|width| unwrapped(width) + usize::from(GAP)).sum();
+    let gaps = usize::from(GAP) * widths.len().saturating_sub(1);
+    let width = widths.iter().map(unwrapped).sum::<usize>() + gaps;
+    let last = widths.len().saturating_sub(1);
     let fits = table.width().is_none_or(|available| width <= usize::from(available));
     let widths = widths.iter().map(|width| if fits { unwrapped(width) } else { width[0] });
-    for ((column, alignment), width) in table.column_iter_mut().zip(alignment).zip(widths) {
+    let columns = table.column_iter_mut().zip(alignment).zip(widths);
+    for (k, ((column, alignment), width)) in columns.enumerate() {
+        let gap = if k == last { 0 } else { GAP };
         column.set_cell_alignment(*alignment);
-        column.set_padding((0, GAP));
-        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
+        column.set_padding((0, gap));
+        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(gap);
         column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
     }
     table.trim_fmt() + "\n"
