@@ -101,7 +101,7 @@ impl CondensedPair {
             .map_or(0.0, |(repeated, steps)| repeated as f64 / steps as f64);
         if share > MANY_REPEATED && self.settings().contact == ContactModel::Exact {
             collision.warnings.push(format!(
-                "in {:.0} % of the steps the contact was no disc; it was solved all the same",
+                "in {:.0} % of the steps the contact area was not a disc: the general solver was used",
                 100.0 * share
             ));
         }

@@ -39,7 +39,8 @@ impl Scale {
                 return None;
             }
             if is_logarithmic {
-                (from, to) = (from / 1.2, to * 1.2);
+                let beside = (to / from).powf(ROOM).max(1.2);
+                (from, to) = (from / beside, to * beside);
             } else if room != Room::None {
                 if room == Room::FromZero {
                     (from, to) = (from.min(0.0), to.max(0.0));

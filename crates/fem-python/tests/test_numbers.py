@@ -75,7 +75,7 @@ def test_a_run_is_that_of_the_command(glass, command, tmp_path, model):
 def test_changes_of_the_scene_name_title_and_folder_as_in_the_command(glass, command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     case = fem_run.Case.load(glass).with_({"body.0.approach_speed": "1 m/s", "model": {"ting": {}}})
-    assert case.title.endswith(", approach_speed = 1 m/s")
+    assert case.title.endswith(", but approach_speed = 1 m/s")
     command(glass, "--set=model=ting", "--set=body.0.approach_speed=1 m/s", "--quiet")
     folder = case.run().save()
     assert [str(path) for path in pathlib.Path("runs").iterdir()] == [folder]

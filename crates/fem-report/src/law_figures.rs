@@ -172,11 +172,17 @@ fn overlap_chart(
     Ok(curves.fold(chart_axes(time, &overlap), Chart::with))
 }
 
+/// Intervals of a drawn curve of e or T over speed.
+const N_DRAWN: usize = 60;
+
 /// Returns `export.svg`: restitution and contact time over speed, of the data and of three kinds of law.
 pub fn export_figure(fitted: &DemExport) -> String {
     let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
     let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
     let speed = QuantityAxis::linear("approach speed", "m/s", fastest).logarithmic();
+    let slowest = curve.speeds().0;
+    let step = (fastest / slowest).powf(1.0 / N_DRAWN as f64);
+    let drawn = || (0..=N_DRAWN).map(|k| slowest * step.powi(k as i32));
     let panel = |y: &QuantityAxis,
                  (is_measured, data): (bool, Vec<(f64, f64)>),
                  of_law: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {
@@ -186,11 +192,8 @@ pub fn export_figure(fitted: &DemExport) -> String {
             _ => Mark::Line,
         };
         let law = |(law, colour): (&FittedLaw, &'static str)| {
-            let points: Vec<(f64, f64)> = curve
-                .points
-                .iter()
-                .filter_map(|point| Some((point.speed, of_law(law, point.speed)?)))
-                .collect();
+            let points: Vec<(f64, f64)> =
+                drawn().filter_map(|speed| Some((speed, of_law(law, speed)?))).collect();
             Curve::new(law.name, mark(law), speed.points(y, &points)).coloured(colour)
         };
         let colours = [0, 2, 3, 4, 5].map(|k| COLOURS[k]);
@@ -272,7 +275,8 @@ fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
 
 fn weight_chart(found: &Calibration) -> Chart {
     let (first, last) = found.contact_times();
-    let x = QuantityAxis::linear("relaxation time", "s", last).logarithmic();
+    let times = found.times.iter().copied().chain([first, last]);
+    let x = QuantityAxis::fitting("relaxation time", "s", times).logarithmic();
     let mut chart = Chart::new(x.axis(), Axis::new("weight g").from_to(0.0, 1.0));
     for time in [first, last] {
         let line = vec![(x.scaled(time), 0.0), (x.scaled(time), 1.0)];

@@ -8,6 +8,9 @@ const PREFIXED: [&str; 6] = ["m", "m/s", "s", "N", "Pa", "J"];
 /// Positive values that span this ratio go on a logarithmic axis.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
+/// Positive values that span this ratio have the unit without a prefix.
+const MANY: f64 = 1e4;
+
 /// One quantity along an axis: its name, its unit and whether the axis is logarithmic.
 #[derive(Debug)]
 pub struct QuantityAxis {
@@ -28,7 +31,7 @@ impl QuantityAxis {
         Self { name, symbol, unit, is_positive: false, is_logarithmic: false, range: None }
     }
 
-    /// An axis for these values (SI), logarithmic if they are positive and span a decade.
+    /// An axis for these values (SI), logarithmic if they are positive and span a decade, and without a prefix if they span many.
     pub fn fitting(
         name: impl Into<String>,
         symbol: &'static str,
@@ -38,7 +41,11 @@ impl QuantityAxis {
         Self {
             is_positive: from > 0.0,
             is_logarithmic: from > 0.0 && to >= LOGARITHMIC_FROM * from,
-            ..Self::linear(name, symbol, to.abs().max(from.abs()))
+            ..Self::linear(
+                name,
+                symbol,
+                if to > MANY * from && from > 0.0 { 1.0 } else { to.abs().max(from.abs()) },
+            )
         }
     }
 

@@ -79,7 +79,7 @@ fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
     if let Some(scatter) = &bounces.scatter {
         let largest =
             scatter.residuals.iter().flatten().fold(0.0f64, |most, it| most.max(it.abs()));
-        let residual = QuantityAxis::linear("flight time less a smooth series", "s", largest);
+        let residual = QuantityAxis::linear("residual of flight time", "s", largest);
         let points =
             bounces.spans.iter().zip(&scatter.residuals).filter_map(|(span, residual_s)| {
                 let middle = 0.5 * (instants[span.from] + instants[span.to]);
@@ -146,7 +146,7 @@ fn track_charts(track: &Track) -> Vec<Chart> {
     };
     let picked = track.impacts.iter().map(level).collect();
     record = record.with(Curve::points("bounce", picked).like_curve(1));
-    let residual = QuantityAxis::linear("frame less parabola", "m", 3.0 * track.noise);
+    let residual = QuantityAxis::linear("residual of frame", "m", 3.0 * track.noise);
     let values: Vec<f64> = deviations.iter().map(|it| it.1).collect();
     let kept = thinned(&values).into_iter();
     let kept = kept.map(|k| (time.scaled(deviations[k].0), residual.scaled(deviations[k].1)));

@@ -75,7 +75,7 @@ fn moduli(found: &FoundRelaxation) -> Chart {
 
 fn residuals(found: &FoundRelaxation) -> Chart {
     let x = abscissa(found);
-    let mut chart = Chart::new(x.axis(), Axis::new("measured less series [%]"));
+    let mut chart = Chart::new(x.axis(), Axis::new("residual [%]"));
     for (k, (name, part)) in parts(found).into_iter().enumerate() {
         let off = found.points.iter().filter(|point| part(point) > 0.0).map(|point| {
             let fitted = found.series.moduli(found.table.kind, point.at)[k];
@@ -92,8 +92,8 @@ fn residuals(found: &FoundRelaxation) -> Chart {
 fn weights(found: &FoundRelaxation) -> Chart {
     let whole = found.series.instantaneous_modulus();
     let terms = &found.series.terms;
-    let longest = terms.iter().map(|term| term.relaxation_time).fold(0.0, f64::max);
-    let x = QuantityAxis::linear("relaxation time", "s", longest).logarithmic();
+    let times = terms.iter().map(|term| term.relaxation_time);
+    let x = QuantityAxis::fitting("relaxation time", "s", times).logarithmic();
     let points = terms.iter().map(|term| (x.scaled(term.relaxation_time), term.modulus / whole));
     let bars = terms.iter().map(|term| 2.0 * term.uncertainty / whole).collect();
     let points = Curve::points("weight ± 2 u", points.collect()).with_errors(bars);

@@ -94,12 +94,15 @@ fn has(tree: &Table, path: &[&str]) -> bool {
         .is_some()
 }
 
-/// Returns a title with the changes appended: `…, approach_speed = 1 m/s`.
+/// Returns a title with the changes appended, `…, but approach_speed = 1 m/s`, since the title may name the former value.
 pub(crate) fn titled(title: &str, changes: &[Change]) -> String {
-    let mut parts = vec![title.to_string()];
     let named = changes.iter().take(MAX_IN_TITLE);
-    parts.extend(named.map(|Change { key, value }| format!("{key} = {value}")));
-    let title = parts.join(", ");
+    let named: Vec<String> =
+        named.map(|Change { key, value }| format!("{key} = {value}")).collect();
+    let title = match named.is_empty() {
+        true => title.to_string(),
+        false => format!("{title}, but {}", named.join(", ")),
+    };
     match changes.len().saturating_sub(MAX_IN_TITLE) {
         0 => title,
         n => format!("{title} and {n} more"),
@@ -156,20 +159,20 @@ mod tests {
             of(&["model=ting", "mesh.growth=1.2", "title='x'", "accuracy.tolerance=0.1"]),
             "Ice"
         );
-        assert_eq!(of(&["body.0.approach_speed='2 m/s'"]), "Ice, approach_speed = 2 m/s");
-        assert_eq!(of(&["body.0.approach_speed=3"]), "Ice, approach_speed = 3 m/s");
+        assert_eq!(of(&["body.0.approach_speed='2 m/s'"]), "Ice, but approach_speed = 2 m/s");
+        assert_eq!(of(&["body.0.approach_speed=3"]), "Ice, but approach_speed = 3 m/s");
         let twice = ["body.0.approach_speed=3", "body.0.approach_speed=0.1 m/s"];
-        assert_eq!(of(&twice), "Ice, approach_speed = 0.1 m/s");
-        assert_eq!(of(&["body.1.sphere.diameter=1e-3"]), "Ice, upper diameter = 1e-3 m");
+        assert_eq!(of(&twice), "Ice, but approach_speed = 0.1 m/s");
+        assert_eq!(of(&["body.1.sphere.diameter=1e-3"]), "Ice, but upper diameter = 1e-3 m");
         assert_eq!(
             of(&["material.ice.density=1", "contact.friction=0.1"]),
-            "Ice, density = 1 kg/m^3, friction = 0.1"
+            "Ice, but density = 1 kg/m^3, friction = 0.1"
         );
         let many =
             ["stop.bounces=2", "start.gap=1 mm", "stop.a=1", "stop.b=1", "stop.c=1", "stop.d=1"];
-        assert_eq!(of(&many), "Ice, bounces = 2, gap = 1 mm, a = 1, b = 1, c = 1 and 1 more");
+        assert_eq!(of(&many), "Ice, but bounces = 2, gap = 1 mm, a = 1, b = 1, c = 1 and 1 more");
         let flow = ["material.ice.flow.yield_strength='1 MPa'", "material.ice.yield_strength=1e6"];
-        assert_eq!(of(&flow), "Ice, flow.yield_strength = 1 MPa, yield_strength = 1e6");
+        assert_eq!(of(&flow), "Ice, but flow.yield_strength = 1 MPa, yield_strength = 1e6");
     }
 
     #[test]

@@ -22,12 +22,23 @@ pub use grains::{Grain, PairOfGrains, grain_snippets, grouped};
 use std::collections::BTreeMap;
 
 use fem_laws::laws::linear_from_restitution;
-use fem_laws::{EndRule, LawError, Pair};
+use fem_laws::{EndRule, LawError, LawFamily, Pair};
 use fem_material::Material;
 use fem_material::engineering::number;
 
 /// The texts of all snippets, whose format stands at their beginning.
 const SNIPPETS: &str = include_str!("snippets.txt");
+/// The contact laws that each code has; one restitution for all speeds is `tsuji` on Hertz' spring and `linear` on a linear one.
+pub const CODE_LAWS: [(&str, &[LawFamily]); 8] = [
+    ("lammps", &[LawFamily::Tsuji, LawFamily::KuwabaraKono, LawFamily::Mdr]),
+    ("liggghts", &[LawFamily::Tsuji, LawFamily::Linear, LawFamily::Luding]),
+    ("yade", &[LawFamily::Tsuji, LawFamily::Linear, LawFamily::Luding]),
+    ("mercurydpm", &[LawFamily::Tsuji, LawFamily::Linear, LawFamily::Luding]),
+    ("lethe", &[LawFamily::Tsuji]),
+    ("mfix-dem", &[LawFamily::Tsuji, LawFamily::Linear]),
+    ("drake", &[LawFamily::HuntCrossley]),
+    ("mujoco", &[LawFamily::Linear]),
+];
 /// Name of the table of the confidence band, beside the snippets.
 pub const BAND_FILE: &str = "restitution_band.csv";
 /// Longest line of a comment, in characters.
@@ -412,7 +423,7 @@ impl Export {
 
     /// Returns the name of the body that a single sphere strikes.
     fn wall(&self) -> &'static str {
-        if self.has_rigid_wall() { "rigid wall" } else { "block without an end" }
+        if self.has_rigid_wall() { "rigid wall" } else { "half-space" }
     }
 
     /// Whether a single sphere strikes a rigid wall: E* is then its own E/(1 − ν²).

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::common::{glass, glass_model};
 use fem_data::dem::{
-    Export, Grain, HuntCrossley, PairOfGrains, Snippet, Sphere, TsujiVersion,
+    CODE_LAWS, Export, Grain, HuntCrossley, PairOfGrains, Snippet, Sphere, TsujiVersion,
     characteristic_velocity, dissipation_of, fit_dissipation, fit_springs, grain_snippets,
     hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry,
     tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
@@ -360,6 +360,20 @@ fn hertzian_dashpots_of_mfix_and_mercury_make_the_stated_restitution() {
     assert!((impact.contact_time.unwrap() / 64e-6 - 1.0).abs() < 1e-7);
 }
 
+/// Each code has the laws of its snippets that depend on speed, and one that makes one restitution.
+#[test]
+fn every_code_of_the_snippets_has_its_laws() {
+    for snippet in export().snippets().unwrap() {
+        let code = snippet.code.to_lowercase();
+        let (_, laws) = CODE_LAWS.iter().find(|(name, _)| *name == code).unwrap();
+        let has = |name: &str| laws.iter().any(|law| law.name() == name);
+        match snippet.law {
+            "constant" => assert!(has("tsuji") || has("linear"), "{code}"),
+            law => assert!(has(law), "{code}: {law}"),
+        }
+    }
+}
+
 /// The input for unlike spheres has both spheres and names the pair of its numbers; that for equal ones does not.
 #[test]
 fn snippets_name_their_pair() {
@@ -398,10 +412,9 @@ fn walls_have_the_modulus_of_the_contact() {
         let line = text.lines().find(|line| line.contains(key)).unwrap();
         line.rsplit_once('=').unwrap().1.trim().parse().unwrap()
     };
-    for (export, words) in [
-        (of(Partner::Wall), "rigid wall"),
-        (of(Partner::half_space(&glass)), "block without an end"),
-    ] {
+    for (export, words) in
+        [(of(Partner::Wall), "rigid wall"), (of(Partner::half_space(&glass)), "half-space")]
+    {
         let snippets = of_code("MFIX-DEM", &export);
         let (mfix, lethe) = (&snippets[0].text, &of_code("Lethe", &export)[0].text);
         assert!(mfix.contains(words) && lethe.contains(words), "{mfix}{lethe}");

@@ -9,8 +9,8 @@ pub struct Levels {
 
 impl Levels {
     /// Returns multiples of 1, 2 or 5 times a power of ten that cover a range, with about `n` bands on the
-    /// larger side of zero. Values within one step of zero share a neutral band; it begins at zero where no value is
-    /// negative.
+    /// larger side of zero. Values within one step of zero share a neutral band; it begins at zero where negative
+    /// values are less than half a step, and ends there where positive ones are.
     pub fn about_zero(smallest: f64, largest: f64, n: usize) -> Self {
         let side = |value: f64| if value.is_finite() { value.max(0.0) } else { 0.0 };
         let (below, above) = (side(-smallest), side(largest));
@@ -21,8 +21,10 @@ impl Levels {
         let (below, above) = (count(below), count(above));
         let multiples = (-below..=above).filter(|k| *k != 0);
         let mut edges: Vec<f64> = multiples.map(|k| k as f64 * step).collect();
-        if smallest == 0.0 && largest > 0.0 {
+        if -smallest < 0.5 * step && largest >= step {
             edges[0] = 0.0;
+        } else if largest < 0.5 * step && -smallest >= step {
+            edges.last_mut().into_iter().for_each(|edge| *edge = 0.0);
         }
         Self { step, edges }
     }
@@ -48,7 +50,7 @@ impl Levels {
 
     /// Returns the index of the band around zero.
     pub(crate) fn neutral(&self) -> usize {
-        self.edges.partition_point(|edge| *edge <= 0.0) - 1
+        (self.edges.partition_point(|edge| *edge <= 0.0) - 1).min(self.edges.len() - 2)
     }
 }
 
@@ -72,7 +74,7 @@ mod tests {
     fn levels_are_round_and_leave_zero_out() {
         let levels = Levels::about_zero(-1.03, 0.02, 10);
         assert_eq!(levels.step(), 0.2);
-        assert_eq!(levels.edges().len(), 7);
+        assert_eq!((levels.edges().len(), levels.edges()[6]), (7, 0.0));
         let levels = Levels::about_zero(-1.03, 0.12, 11);
         assert_eq!((levels.step(), levels.edges().len()), (0.1, 13));
         assert_eq!((levels.edges()[0], levels.edges()[12]), (-11.0 * 0.1, 0.2));
@@ -80,6 +82,8 @@ mod tests {
         assert_eq!(Levels::about_zero(-0.3, 4.4, 10).step(), 0.5);
         let levels = Levels::about_zero(0.0, 2.0, 4);
         assert_eq!((levels.edges(), levels.neutral()), (&[0.0, 0.5, 1.0, 1.5, 2.0][..], 0));
+        let levels = Levels::about_zero(-2.0, 0.0, 4);
+        assert_eq!((levels.edges(), levels.neutral()), (&[-2.0, -1.5, -1.0, -0.5, 0.0][..], 3));
         assert_eq!(Levels::about_zero(-3e9, 3e9, 3).edges(), [-3e9, -2e9, -1e9, 1e9, 2e9, 3e9]);
     }
 

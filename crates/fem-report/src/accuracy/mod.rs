@@ -10,7 +10,7 @@ use fem_collision::QuantityOfInterest;
 use serde_json::{Value, json as object};
 
 pub use figure::figure;
-pub use tables::{AccuracyTable, markdown, sentences, terminal_tables};
+pub use tables::{AccuracyTable, Advice, advice, markdown, terminal_tables};
 
 /// An accuracy study of a case.
 pub struct AccuracyResult<'a> {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use fem::accuracy::{ObservedOrder, Series, VariantRun};
-use fem_case::engineering::show;
+use fem_case::engineering::{Unit, show};
 use fem_collision::QuantityOfInterest;
 
 use super::AccuracyResult;
@@ -33,11 +33,29 @@ impl AccuracyTable {
     }
 }
 
-/// Returns the tables on the terminal: the fastest variants at each accuracy, limits and sources of error.
-pub fn terminal_tables(result: &AccuracyResult<'_>) -> Vec<AccuracyTable> {
+/// Returns the tables on the terminal: the fastest variants at each accuracy and, if all is wanted, limits and sources of error.
+/// A short one has the errors of restitution, contact time, force and stress of a few variants.
+pub fn terminal_tables(result: &AccuracyResult<'_>, is_whole: bool) -> Vec<AccuracyTable> {
+    /// Rows of a short table, with its heads.
+    const SHORT: usize = 10;
     let heading = "Most accurate for their computing time";
-    let fastest = variants(result, heading, |run| run.errors.is_on_frontier);
-    with_rows([fastest, limits(result), error_parts(result)])
+    let mut fastest = variants(result, heading, |run| run.errors.is_on_frontier);
+    let is_shown = |head: &str| match is_whole {
+        true => head != "updates",
+        false => ["variant", "time", "e", "T", "F", "stress"].contains(&head),
+    };
+    let heads = fastest.rows[0].clone();
+    for row in &mut fastest.rows {
+        let mut shown = heads.iter().map(|head| is_shown(head));
+        row.retain(|_| shown.next().unwrap_or_default());
+    }
+    match is_whole {
+        true => with_rows([fastest, limits(result), error_parts(result)]),
+        false => {
+            fastest.rows.truncate(SHORT);
+            with_rows([fastest])
+        }
+    }
 }
 
 fn with_rows(tables: impl IntoIterator<Item = AccuracyTable>) -> Vec<AccuracyTable> {
@@ -47,8 +65,12 @@ fn with_rows(tables: impl IntoIterator<Item = AccuracyTable>) -> Vec<AccuracyTab
 /// Returns `accuracy.md` with all tables.
 pub fn markdown(result: &AccuracyResult<'_>, has_figure: bool) -> String {
     let mut text = format!("# {}\n", one_line(result.title));
-    for sentence in sentences(result) {
-        let _ = writeln!(text, "\n{sentence}");
+    for Advice { sentence, overrides } in advice(result) {
+        let _ = write!(text, "\n{sentence}");
+        let _ = match overrides.is_empty() {
+            true => writeln!(text),
+            false => writeln!(text, " (`{}`)", overrides.join(" ")),
+        };
     }
     if has_figure {
         let _ = writeln!(text, "\n![errors over seconds](accuracy.svg)");
@@ -94,16 +116,15 @@ fn variants(
     let row = |run: &VariantRun<'_>| {
         let updates = run.measurement.element_updates;
         let mut cells = vec![
-            run.variant.series.name().to_string(),
-            run.variant.describe(),
-            show(run.seconds, "s"),
+            described(run),
+            Unit::fitting(run.seconds, "s").with_digits(3).show(run.seconds),
             updates.map_or(NONE.into(), |n| grouped(n as f64, ',')),
         ];
         cells.extend(errors(run.errors.signed));
         cells.push(run.errors.stress.map_or(NONE.into(), |e| format!("{:.1} %", 100.0 * e)));
         cells
     };
-    let header = ["", "", "time", "updates"].into_iter().chain(SYMBOLS).chain(["stress"]);
+    let header = ["variant", "time", "updates"].into_iter().chain(SYMBOLS).chain(["stress"]);
     let shown = result.study.runs.iter().filter(|run| is_shown(run));
     AccuracyTable::new(heading, header, shown.map(row))
 }
@@ -153,8 +174,22 @@ fn orders(result: &AccuracyResult<'_>) -> AccuracyTable {
     AccuracyTable::new(heading, std::iter::once("").chain(SYMBOLS), rows)
 }
 
+/// A sentence of a study, with the options that follow from it.
+pub struct Advice {
+    /// A whole sentence.
+    pub sentence: String,
+    /// The options that choose the variant of the sentence: `--set 'model.ting={}'`.
+    pub overrides: Vec<String>,
+}
+
+impl From<String> for Advice {
+    fn from(sentence: String) -> Self {
+        Self { sentence, overrides: Vec::new() }
+    }
+}
+
 /// Returns which variants to choose, and what the study leaves open.
-pub fn sentences(result: &AccuracyResult<'_>) -> Vec<String> {
+pub fn advice(result: &AccuracyResult<'_>) -> Vec<Advice> {
     let AccuracyResult { study, accuracy, variants, left_out, .. } = result;
     let share = |share: f64| format!("{} %", fem_figure::tick(100.0 * share));
     let three = [accuracy.restitution, accuracy.contact_time, accuracy.peak_force];
@@ -166,9 +201,9 @@ pub fn sentences(result: &AccuracyResult<'_>) -> Vec<String> {
         ),
         false => "the tolerances of the case".to_string(),
     };
-    let mut sentences = vec![match study.cheapest_within(|_| true) {
-        Some(run) => format!("Within {asked}: {}.", choice(run)),
-        None => format!("No variant that was computed is within {asked}."),
+    let mut found = vec![match study.cheapest_within(|_| true) {
+        Some(run) => choice(&format!("Within {asked}"), run),
+        None => format!("No variant that was computed is within {asked}.").into(),
     }];
     // The finest field has no error estimate: it is the reference of all others.
     let with_fields = study.cheapest_within(|run| {
@@ -177,44 +212,45 @@ pub fn sentences(result: &AccuracyResult<'_>) -> Vec<String> {
     });
     if let Some(run) = with_fields {
         let tolerance = share(accuracy.peak_pressure);
-        sentences
-            .push(format!("With stress fields, the stress within {tolerance}: {}.", choice(run)));
+        found.push(choice(&format!("With stress fields, the stress within {tolerance}"), run));
     }
     let explicit = study.cheapest_within(|run| run.variant.is_explicit());
-    sentences.extend(explicit.map(|run| format!("With explicit elements: {}.", choice(run))));
+    found.extend(explicit.map(|run| choice("With explicit elements", run)));
     let own = study.runs.iter().find(|run| run.variant.series == Series::AsWritten);
     let is_named = explicit.is_some_and(|run| run.variant.series == Series::AsWritten);
     if let Some(own) = own.filter(|_| !is_named)
         && let Some(share) = own.errors.in_tolerances
     {
         let is_refined = share > 1.0 && variants.is_open;
-        sentences.push(format!(
+        let sentence = format!(
             "The case as written, {}: {}, {share:.2} times the tolerance{}.",
             own.variant.describe(),
             show(own.seconds, "s"),
             if is_refined { "; a run would refine the mesh" } else { "" }
-        ));
+        );
+        found.push(sentence.into());
     }
     if *left_out > 0 {
-        sentences.push(format!(
+        let sentence = format!(
             "{left_out} of {} variants were left out: they would have exceeded the time budget of {}.",
             variants.all.len(),
             show(result.budget, "s")
-        ));
+        );
+        found.push(sentence.into());
     }
-    sentences
+    found
 }
 
-/// Describes a variant with its run time and the overrides that choose it.
-fn choice(run: &VariantRun<'_>) -> String {
-    let describe = run.variant.describe();
-    let gap = if describe.is_empty() { "" } else { ", " };
-    let overrides = run.variant.overrides();
-    let settings: Vec<String> = overrides.iter().map(|set| format!("--set '{set}'")).collect();
-    let settings = match settings.is_empty() {
-        true => String::new(),
-        false => format!(" (`{}`)", settings.join(" ")),
-    };
-    let (name, time) = (run.variant.series.name(), show(run.seconds, "s"));
-    format!("{name}{gap}{describe}: {time}{settings}")
+/// Returns a variant with its run time, after words that say what it is chosen for.
+fn choice(purpose: &str, run: &VariantRun<'_>) -> Advice {
+    let sentence = format!("{purpose}: {}: {}.", described(run), show(run.seconds, "s"));
+    let overrides = run.variant.overrides().iter().map(|set| format!("--set '{set}'")).collect();
+    Advice { sentence, overrides }
+}
+
+/// Returns the name of a variant with its settings.
+fn described(run: &VariantRun<'_>) -> String {
+    let (name, settings) = (run.variant.series.name(), run.variant.describe());
+    let gap = if settings.is_empty() { "" } else { ", " };
+    format!("{name}{gap}{settings}")
 }

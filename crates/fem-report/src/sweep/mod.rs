@@ -119,7 +119,12 @@ fn value_chart(
         let is_drawn = has_errors && !(y.is_logarithmic() && error >= value);
         if is_drawn { *error } else { 0.0 }
     };
-    let ends = own().flat_map(|point| [point.1 - bar(point), point.1 + bar(point)]);
+    // Bars of values that are not negative end at zero.
+    let floor = |value: f64| if value < 0.0 { f64::NEG_INFINITY } else { 0.0 };
+    let ends = own().flat_map(|point| {
+        let (value, bar) = (point.1, bar(point));
+        [(value - bar).max(floor(value)), value + bar]
+    });
     let shown = shown_range(ends, reference().map(|point| point.1));
     let errors = |curve: &SweepCurve| curve.points.iter().map(|at| y.scaled(bar(at))).collect();
     let errors: Vec<Vec<f64>> = curves.iter().map(errors).collect();

@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use std::time::Instant;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, FromArgMatches, Parser};
 use fem_case::nearest;
 
 use crate::commands::{Command, run};
@@ -54,17 +54,46 @@ A case file with the name of a command runs as ./check.
 Examples:
   fem-run new ball --material pmma --partner wall
   fem-run cases/glass_0.5ms.toml
-  fem-run cases/glass_0.5ms.toml --set body.0.approach_speed='\"1 m/s\"' --out runs/glass_1ms
+  fem-run cases/glass_0.5ms.toml --set body.0.approach_speed='1 m/s'
   fem-run check cases/glass_0.5ms.toml";
+
+/// The commands in the order of the help, by purpose.
+const GROUPS: [(&str, &[&str]); 4] = [
+    ("Run", &["new", "check", "mesh", "materials", "sweep", "accuracy", "report", "plot"]),
+    ("Measure and fit", &["measure", "relaxation", "fit", "calibrate", "invert", "cradle"]),
+    ("Hand over", &["export", "schema"]),
+    ("For developers", &["validate", "completions", "man"]),
+];
+
+/// Returns the whole command line. Its help has the commands in groups, which clap does not offer.
+pub fn command() -> clap::Command {
+    let command = Arguments::command();
+    let line = |name: &&str| {
+        let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+        format!("  {name:<13}{}\n", about.cloned().unwrap_or_default())
+    };
+    let group = |(title, names): &(&str, &[&str])| {
+        format!("{title}:\n{}\n", names.iter().map(line).collect::<String>())
+    };
+    let groups: String = GROUPS.iter().map(group).collect();
+    let template = format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{groups}\
+         Help of one of them: fem-run COMMAND -h\n\nArguments:\n{{positionals}}\n\nOptions:\n{{options}}{{after-help}}"
+    );
+    command.help_template(template)
+}
 
 /// Parses the command line. For help, version or an invalid command line it prints text and ends the
 /// process.
 pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
-    let error = match Arguments::try_parse_from(words) {
+    let parsed = command()
+        .try_get_matches_from(words)
+        .and_then(|matches| Arguments::from_arg_matches(&matches));
+    let error = match parsed {
         Ok(arguments) => return arguments,
         Err(error) => error,
     };
-    let mut command = Arguments::command();
+    let mut command = command();
     let names = names_of(&command).join(", ");
     let (word, text) = match error.kind() {
         // `help exprt`; elsewhere a word that is no command is taken as a case.
@@ -121,7 +150,7 @@ fn names_of(command: &clap::Command) -> Vec<String> {
 /// Returns the command that a word probably means; `None` for a command or an existing file, also without `.toml`.
 fn near_command(word: &str) -> Option<String> {
     // With 0.85, `chek`, `sweeps` and `mateirals` mean commands, `glass` and `case` do not.
-    let names = names_of(&Arguments::command());
+    let names = names_of(&command());
     let is_file = [word, &format!("{word}.toml")].iter().any(|name| Path::new(name).exists());
     let is_word = !word.contains(['.', '/', '\\']) && !is_file;
     let near = nearest(word, &names, 0.85).filter(|_| is_word);
@@ -131,7 +160,7 @@ fn near_command(word: &str) -> Option<String> {
 impl Arguments {
     pub fn execute(self, started: Instant) -> Result<(), Failure> {
         match (self.command, self.input) {
-            (Some(command), _) => command.execute(Self::command),
+            (Some(command), _) => command.execute(self::command),
             (None, Some(input)) => match (other_word(&input.name()), near_command(&input.name())) {
                 (Some(way), _) => Err(Failure::bad_input(format!(
                     "{}: there is no such file and no such command",
@@ -147,6 +176,26 @@ impl Arguments {
             },
             // clap prints its help if there are no arguments at all.
             (None, None) => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_lists_each_command_once_on_one_line() {
+        let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        let command = command();
+        let mut names = names_of(&command);
+        grouped.sort_unstable();
+        names.sort_unstable();
+        assert_eq!(grouped, names);
+        let help = command.clone().render_help().to_string();
+        for name in names {
+            let line = help.lines().find(|line| line.starts_with(&format!("  {name} "))).unwrap();
+            assert!(line.len() <= 80, "{line}");
         }
     }
 }

@@ -3,12 +3,11 @@
 use std::io::{Write, stderr};
 use std::time::{Duration, Instant};
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem::accuracy::{Measurement, Study, Variant, Variants};
 use fem::{CaseError, Identity, Monitor, Progress, Simulation, digest_of};
 use fem_case::engineering::show;
 use fem_report::accuracy::{
-    AccuracyResult, csv, figure, json, markdown, sentences, terminal_tables,
+    AccuracyResult, Advice, advice, csv, figure, json, markdown, terminal_tables,
 };
 use indicatif::HumanCount;
 
@@ -16,7 +15,7 @@ use crate::{
     arguments::case::{CaseArguments, ToleranceArguments},
     progress::{ItemProgress, interrupt::Interrupt},
     result_folder::command_output::OutputArguments,
-    text::{Failure, one_line, table},
+    text::{Failure, headed, one_line, standard_output, wrapped},
 };
 
 /// Shorter runs are timed three times, and the median is taken.
@@ -32,8 +31,8 @@ const NEXT_LEVEL: f64 = 4.0;
 /// Compare models and settings by their errors and run times
 ///
 /// Computes the collision of a case with closed forms, condensed bodies and explicit elements, over the
-/// element size and other settings that cost time. Prints the error of each against the extrapolated limit,
-/// the fastest at each accuracy, the sources of error, and what to choose. Writes a table (accuracy.csv), a
+/// element size and other settings that cost time. Prints what to choose, the fastest variants at each
+/// accuracy with their errors against the extrapolated limit and, with -v, the limit and the sources of error. Writes a table (accuracy.csv), a
 /// page (accuracy.md) and a figure (accuracy.svg).
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
@@ -44,6 +43,9 @@ pub struct Arguments {
     /// Time budget in seconds; the run in progress is stopped
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     budget: f64,
+    /// Print everything: all errors, the limit and the sources of error
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -91,14 +93,30 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     output.write("accuracy.md", page);
     output.publish(&json(&result), |_| {
-        let mut text = format!("{}\n", one_line(result.title));
-        for part in terminal_tables(&result) {
-            let mut alignment = vec![Right; part.rows[0].len()];
-            alignment[0] = Left;
-            let rows = table(&alignment, part.rows);
+        let mut text = format!("{}\n\n", one_line(result.title));
+        for Advice { sentence, overrides } in advice(&result) {
+            text += &(wrapped(&sentence) + "\n");
+            // As a shell reads it, also if it is copied whole.
+            let mut length = 0;
+            for option in overrides {
+                length += option.len() + 1;
+                text += match length == option.len() + 1 {
+                    true => "   ",
+                    false if length <= 72 => "",
+                    false => {
+                        length = option.len() + 1;
+                        " \\\n   "
+                    }
+                };
+                text += &format!(" {option}");
+            }
+            text += if length > 0 { "\n" } else { "" };
+        }
+        for part in terminal_tables(&result, arguments.verbose) {
+            let [head, rows @ ..] = &part.rows[..] else { continue };
+            let rows = headed(&head.join("|>"), rows);
             text += &format!("\n{}\n{}\n", part.heading, rows.trim_end());
         }
-        sentences(&result).iter().for_each(|sentence| text += &format!("\n{sentence}\n"));
         text
     })
 }
@@ -106,14 +124,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 fn announce(case: &str, variants: &Variants, budget: f64) {
     let updates =
         variants.all.iter().fold(0u64, |sum, variant| sum.saturating_add(variant.element_updates));
-    let _ = writeln!(
-        stderr(),
-        "{}: {} variants, {} element updates in all, the cheapest first; ends after {}",
-        one_line(case),
+    let text = format!(
+        "{case}: {} variants, {} element updates in all, the cheapest first; ends after {}",
         variants.all.len(),
         HumanCount(updates),
         show(budget, "s")
     );
+    standard_output::tell("", &text);
 }
 
 /// Runs the variants, the cheapest first, until the budget (s) is spent. Returns the result and the run time

@@ -23,7 +23,7 @@ use crate::{
 /// Time for the reference runs that decide whether the mesh is fine enough.
 const PATIENCE_WITH_REFERENCE_RUNS: Duration = Duration::from_secs(2);
 
-/// Check a case and print its warnings, its cost and the effects that it includes
+/// Check a case and print its warnings, its cost and its effects
 ///
 /// With --resolved the output is a case file with all defaults filled in, which gives the same result; its
 /// comments describe the expected run.

@@ -1,27 +1,29 @@
 //! `fem-run materials`: the library of materials, and one of them as a case has it.
 
 use fem_case::CaseFile;
-use fem_case::engineering::{number, show};
+use fem_case::engineering::number;
 use fem_case::library::{Material, find, materials, nearest_to, table_text};
 use fem_case::schema::BodyTable;
 use fem_case::{Case, CaseError};
-use textwrap::{Options, WordSeparator, WordSplitter};
 
-use crate::text::{Failure, headed, standard_output};
+use crate::text::{Failure, headed, standard_output, wrapped, wrapped_at};
 
-/// List the materials that a case can name as "lib:NAME", or print one of them
+/// List the materials of the library, or print one of them
 ///
-/// One material is printed as the table of a case, with its source and its range of validity, to be copied
+/// A case names them as material = "lib:NAME". One material is printed as the table of a case, with its source and its range of validity, to be copied
 /// into a case and changed there. A case with material = "lib:NAME" needs no table.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     /// A material of the list
     name: Option<String>,
+    /// List density, moduli and the whole name of each material
+    #[arg(long, short)]
+    verbose: bool,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.name {
-        None => standard_output::print(&list()?),
+        None => standard_output::print(&list(arguments.verbose)?),
         Some(name) => standard_output::print(&one(name)?),
     }
 }
@@ -39,10 +41,7 @@ pub fn one(name: &str) -> Result<String, Failure> {
             Failure::bad_input(message).with_help(format!("{near}it has {}", all.join(", ")))
         );
     };
-    let width = Options::new(100).initial_indent("# ").subsequent_indent("# ");
-    let width = width.word_separator(WordSeparator::AsciiSpace);
-    let width = width.word_splitter(WordSplitter::NoHyphenation);
-    let comment = |text: &str| textwrap::fill(text, &width);
+    let comment = |text: &str| wrapped_at(80, "# ", &format!("# {text}"));
     let lines = [title.clone(), format!("Source: {source}."), format!("Range: {range}.")];
     let mut comments: Vec<String> = lines.iter().map(|line| comment(line)).collect();
     for it in measured {
@@ -64,7 +63,10 @@ pub fn one(name: &str) -> Result<String, Failure> {
     Ok(format!("{}\n{text}", comments.join("\n")))
 }
 
-fn list() -> Result<String, CaseError> {
+/// Returns the list, short or with all properties.
+fn list(is_whole: bool) -> Result<String, CaseError> {
+    /// Columns of the short list.
+    const N_COLUMNS: usize = 3;
     let mut rows = Vec::new();
     for (name, entry) in materials() {
         let floor = BodyTable::wall("floor");
@@ -74,16 +76,32 @@ fn list() -> Result<String, CaseError> {
         let moduli = material.instantaneous();
         rows.push([
             name.clone(),
-            format!("{} kg/m^3", number(material.density(), 5)),
-            show(moduli.youngs_modulus(), "Pa"),
-            format!("{:.4}", moduli.poissons_ratio()),
-            if material.relaxation().is_some() { "yes" } else { "no" }.to_string(),
-            if entry.measured.is_empty() { "no" } else { "yes" }.to_string(),
+            number(moduli.youngs_modulus() / 1e9, 3),
+            format!("{:.3}", moduli.poissons_ratio()),
+            number(material.density(), 5),
             entry.title.clone(),
         ]);
     }
-    let list = headed("name|>density|>Young's|>Poisson's|relaxes|measured|what", rows);
+    let list = if is_whole {
+        headed("name|>E/GPa|>Poisson's|>kg/m^3|", rows)
+    } else {
+        let n_rows = rows.len().div_ceil(N_COLUMNS);
+        let cells = |k: usize| {
+            let places = (k..rows.len()).step_by(n_rows);
+            places.flat_map(|place| rows[place][..2].to_vec()).collect::<Vec<_>>()
+        };
+        headed(&["name|>E/GPa"; N_COLUMNS].join("|"), (0..n_rows).map(cells))
+    };
+    let named = |is_meant: fn(&Material) -> bool| {
+        let meant = materials().iter().filter(|(_, entry)| is_meant(entry));
+        meant.map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let relaxing =
+        wrapped(&format!("Relaxing: {}", named(|entry| entry.material.relaxation.is_some())));
+    let measured = named(|entry| !entry.measured.is_empty());
+    let more = if is_whole { "" } else { "All properties: fem-run materials -v\n" };
     Ok(format!(
-        "{list}\nIn a case: material = \"lib:NAME\". Source and range: fem-run materials NAME\n"
+        "{list}\n{relaxing}\nWith measured restitutions: {measured}\n\
+         In a case: material = \"lib:NAME\". Source and range: fem-run materials NAME\n{more}"
     ))
 }

@@ -18,7 +18,7 @@ use crate::arguments::data::{ColumnArguments, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
 use crate::result_folder::whole_file::OwnedFileKind;
-use crate::text::{Failure, headed, show_measured, shown, standard_output};
+use crate::text::{Failure, hanging, headed, show_measured, shown, standard_output};
 
 /// The table of impacts, of which `--out` may ask for a copy.
 const TABLE: OwnedFileKind = OwnedFileKind {
@@ -28,7 +28,7 @@ const TABLE: OwnedFileKind = OwnedFileKind {
     option: "--out",
 };
 
-/// Turn a record of a bouncing ball into restitutions over speed, with uncertainties
+/// Turn a record of a bouncing ball into restitutions over speed
 ///
 /// The record is a CSV file of the instants at which the ball touches the plate, of its height over time, or of the force of
 /// impacts over time; or it is a sound (WAV). Writes measure.csv, which fit and
@@ -144,7 +144,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let numbers = record.numbers(&path.display().to_string(), &rig);
     output.publish(&numbers, |kept| {
         let next = kept.path("measure.csv").map_or(String::new(), |table| {
-            format!("\nFit a law to it: fem-run fit CASE.toml --data {}\n", shown(&table))
+            format!("\nFit a law to it:\n    fem-run fit CASE.toml --data {}\n", shown(&table))
         });
         answer(&record) + &impacts_table(record.impacts()) + &details(&record, &rig) + &next
     })
@@ -165,12 +165,14 @@ fn answer(record: &Record) -> String {
     let slowest = impacts.iter().min_by(|a, b| a.speed.value.total_cmp(&b.speed.value));
     let of = |impact: &Impact| {
         let e = show_measured(impact.restitution, "");
-        format!("{e} at {}", show(impact.speed.value, "m/s"))
+        let speed = impact.speed.value;
+        format!("{e} at {}", Unit::fitting(speed, "m/s").with_digits(3).show(speed))
     };
     match (fastest, slowest) {
         (Some(one), _) if impacts.len() == 1 => format!("restitution {}\n\n", of(one)),
         (Some(fastest), Some(slowest)) => {
-            format!("{} restitutions, from {} to {}\n\n", impacts.len(), of(fastest), of(slowest))
+            let n = impacts.len();
+            hanging(&format!("{n} restitutions: {} to {}\n\n", of(fastest), of(slowest)))
         }
         _ => String::new(),
     }
@@ -227,7 +229,7 @@ fn of_track(track: &Track, rig: &Rig) -> String {
         None => gravity,
     };
     let mut text = format!(
-        "{} frames, {} flights; {gravity}; scatter of a frame: {}\n",
+        "{} frames, {} flights; scatter of a frame: {}\n{gravity}\n",
         track.frames.times.len(),
         track.flights.len(),
         two_digits(track.noise, "m")

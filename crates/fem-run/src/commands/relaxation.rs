@@ -16,7 +16,7 @@ use crate::arguments::data::{ColumnArguments, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
 use crate::result_folder::whole_file::OwnedFileKind;
-use crate::text::{Failure, headed, show_measured, shown, standard_output};
+use crate::text::{Failure, hanging, headed, show_measured, shown, standard_output};
 
 /// The table of a relaxation, of which `--out` may ask for a copy.
 const TABLE: OwnedFileKind = OwnedFileKind {
@@ -26,7 +26,7 @@ const TABLE: OwnedFileKind = OwnedFileKind {
     option: "--out",
 };
 
-/// Turn moduli over frequency or time into the relaxation of a material
+/// Turn moduli over frequency or time into a Prony series
 ///
 /// The data are a CSV file of dynamic mechanical analysis, frequency with storage and loss modulus or tan delta, or of a relaxation
 /// test, time with modulus. Writes NAME.relaxation.toml (the table relaxation of a material), relaxation.json, relaxation.csv and
@@ -200,7 +200,7 @@ fn shifts(found: &FoundRelaxation) -> String {
     };
     for fitted in [&superposition.wlf, &superposition.arrhenius].into_iter().flatten() {
         let u = &fitted.uncertainties;
-        text += &match &fitted.law {
+        let line = match &fitted.law {
             ShiftLaw::Wlf { c1, c2 } => {
                 format!("WLF: C1 = {}, C2 = {}", measured(*c1, u[0], ""), measured(*c2, u[1], "K"))
             }
@@ -211,7 +211,8 @@ fn shifts(found: &FoundRelaxation) -> String {
             }
             ShiftLaw::Table(_) => String::new(),
         };
-        text += &format!("; misses log10 a_T by up to {:.2}\n", fitted.largest_deviation);
+        let misfit = fitted.largest_deviation;
+        text += &hanging(&format!("{line}; misses log10 a_T by up to {misfit:.2}\n"));
     }
     text + "\n"
 }

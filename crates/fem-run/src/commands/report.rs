@@ -23,7 +23,7 @@ const PAGE: OwnedFileKind = OwnedFileKind {
     option: "--out",
 };
 
-/// Write the report page of a result, or compare several results on one page
+/// Write the report page of a result, or compare several results
 ///
 /// For one folder, writes its report.html as a run does. For several folders, writes one page with their
 /// curves over each other, the differences of their numbers from the first, and the differences of their

@@ -255,7 +255,7 @@ impl Announced<'_> {
         if detail == Detail::All || !note.is_empty() {
             line += &format!("; result: {}{note}", place.out.display());
         }
-        let _ = writeln!(stderr(), "{}", one_line(&line));
+        standard_output::tell("", &line);
         let seconds = match simulation.setup().cost {
             Cost::ClosedForm { .. } => Some(0.0),
             Cost::Steps { seconds, .. } => forecast.whole(0.0).or(Some(seconds)),

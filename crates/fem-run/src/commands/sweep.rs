@@ -112,13 +112,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// Returns `runs/<name>`, or a folder next to it if that holds another sweep.
 fn default_folder(name: &str, origin: &Origin, arguments: &Arguments) -> PathBuf {
     let default = Path::new("runs").join(name);
-    let is_taken = SweepFolder::at(&default, ShardFilter::All).only_of(origin).other_sweep();
-    match (is_taken, origin.distinction()) {
-        (Some(_), words) if !arguments.force && !words.is_empty() => {
-            default.with_file_name(format!("{name}-{words}"))
-        }
-        _ => default,
-    }
+    let is_free = |folder: &PathBuf| {
+        let here = SweepFolder::at(folder, ShardFilter::All).only_of(origin);
+        arguments.force || here.other_sweep().is_none()
+    };
+    let mut folders = std::iter::once(default.clone()).chain(origin.folders_beside(&default));
+    folders.find(is_free).unwrap_or(default)
 }
 
 impl Work<'_> {

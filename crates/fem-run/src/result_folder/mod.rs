@@ -33,8 +33,6 @@ pub use origin::Origin;
 const ATTEMPTS: usize = 100;
 /// Looks at a folder after which it counts as foreign.
 const LOOKS: usize = 5;
-/// Digits of the digest in the name of a folder.
-const DIGITS: usize = 8;
 
 #[derive(Debug)]
 pub struct ResultPath {
@@ -47,7 +45,7 @@ pub struct ResultPath {
 
 impl ResultPath {
     /// Returns `out` if it is given, and else `runs/<name>`. If that holds a result that may not be replaced, the
-    /// folder is `runs/<name>-<distinction>` or, if that is taken too, `runs/<name>-<digits of made_from>`.
+    /// folder is the first free one beside it ([`Origin::folders_beside`]).
     pub fn choose(out: Option<&Path>, name: &str, origin: &Origin, force: bool) -> Self {
         let allows = |old: &ExistingResult, at: &Path| force || origin.replaces(old, at);
         let existing = |path: &Path| match ExistingOutput::at(path) {
@@ -69,11 +67,8 @@ impl ResultPath {
         if is_free(&default) {
             return at(&default, None);
         }
-        let digits = origin.made_from().get(..DIGITS).unwrap_or(origin.made_from());
-        let named = |suffix: &str| default.with_file_name(format!("{name}-{suffix}"));
-        let readable = Some(origin.distinction()).filter(|words| !words.is_empty());
-        let readable = readable.map(|words| named(&words)).filter(|path| is_free(path));
-        at(&readable.unwrap_or_else(|| named(digits)), Some(default))
+        let beside = origin.folders_beside(&default).find(|path| is_free(path));
+        at(&beside.unwrap_or_else(|| default.clone()), Some(default))
     }
 
     /// Returns why the folder is not the default one, or what it replaces, to follow its name.

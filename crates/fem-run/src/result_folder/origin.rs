@@ -95,16 +95,33 @@ impl Origin {
             || source.is_some() && source == self.source(folder).as_deref()
     }
 
+    /// Returns the folders for this result beside one of the same name that is taken, the best first: `ball-model=ting`,
+    /// where that is easily typed, then `ball-2`, `ball-3` and so on.
+    pub fn folders_beside(&self, taken: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+        let taken = taken.to_path_buf();
+        let name = taken.file_name().unwrap_or_default().to_string_lossy().to_string();
+        let readable = Some(self.distinction()).filter(|words| !words.is_empty());
+        let numbers = (2..).map(|number: u64| number.to_string());
+        readable
+            .into_iter()
+            .chain(numbers)
+            .map(move |end| taken.with_file_name(format!("{name}-{end}")))
+    }
+
     /// Returns what distinguishes this result's folder from one of the same name: the options or, without any, the
-    /// folder of the first file.
-    pub fn distinction(&self) -> String {
+    /// folder of the first file; empty if that is no name to type.
+    fn distinction(&self) -> String {
         let folder = self.files.first().and_then(|file| file.parent()?.file_name());
         let folder = folder.map(|name| name.to_string_lossy().to_string());
         let words = match self.options.as_slice() {
             [] => folder.unwrap_or_default(),
-            all => all.join("-"),
+            all => all.join("-").replace("={}", ""),
         };
-        readable_name(&words)
+        if words.contains(['{', '[', '(', ',', ';']) {
+            String::new()
+        } else {
+            readable_name(&words)
+        }
     }
 }
 

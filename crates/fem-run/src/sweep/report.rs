@@ -1,6 +1,5 @@
 //! Messages of a sweep: before it begins, when it is done, and how it ends.
 
-use std::io::{Write, stderr};
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
@@ -14,7 +13,7 @@ use super::collect::SweepOutcome;
 use super::cost_estimate::{SweepCost, TotalTime};
 use super::member_store::LINE_BYTES;
 use crate::forecast::{estimated, estimated_time};
-use crate::text::{Failure, one_line, shown, table};
+use crate::text::{Failure, one_line, shown, standard_output, table};
 
 pub fn announce(
     name: &str,
@@ -44,14 +43,12 @@ pub fn announce(
         }
         _ => String::new(),
     };
-    let _ = writeln!(
-        stderr(),
-        "{name}: {n_members} members{shard}; {} already done, {n_left} to run{time}{kept}",
-        n_own - n_left
+    let n_done = n_own - n_left;
+    let text = format!(
+        "{name}: {n_members} members{shard}; {n_done} already done, {n_left} to run{time}{kept}"
     );
-    if let Some(advice) = checked.advice {
-        let _ = writeln!(stderr(), "hint: {advice}");
-    }
+    standard_output::tell("", &text);
+    checked.advice.iter().for_each(|advice| standard_output::tell("hint: ", advice));
 }
 
 pub fn member_file_size(n_members: usize) -> String {

@@ -7,4 +7,6 @@ pub mod tables;
 
 pub use failure::Failure;
 pub use standard_output::{one_line, shown};
-pub use tables::{headed, mesh_table, pairs, show_measured, show_value, table, wrapped};
+pub use tables::{
+    hanging, headed, mesh_table, pairs, show_measured, show_value, table, wrapped, wrapped_at,
+};

@@ -19,7 +19,7 @@ use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
 use super::standard_output::{one_line, shown};
-use super::tables::{headed, show_measured, table};
+use super::tables::{hanging, headed, show_measured, table};
 
 const NONE: &str = "-";
 const UNKNOWN: &str = "?";
@@ -125,7 +125,7 @@ pub fn effects_in_short<'a>(
         false => format!("; above {}: {}", tolerance_words(case), mattering.join(", ")),
     };
     let plural = if off.len() == 1 { "" } else { "s" };
-    let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
+    let off = hanging(&format!("{} effect{plural} off{above}; -v lists them\n", off.len()));
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
     rows + &off
 }
@@ -293,7 +293,7 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         legend += &format!("; restitution: {note}");
     }
     let between = if detail == Detail::All { "\n" } else { "" };
-    format!("{table}{between}{legend}\n")
+    format!("{table}{between}{}\n", hanging(&legend))
 }
 
 /// Returns the head of the column with the discretisation error.

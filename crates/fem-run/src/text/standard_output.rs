@@ -3,7 +3,10 @@
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
+use comfy_table::Table;
+
 use super::failure::Failure;
+use super::tables::wrapped_at;
 
 pub use fem_report::number_text::one_line;
 
@@ -24,13 +27,19 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 pub fn note(note: &str) {
-    // A closed stderr is no reason to end.
-    let _ = writeln!(stderr(), "note: {}", one_line(note));
+    tell("note: ", note);
 }
 
 pub fn warn(warnings: impl IntoIterator<Item = String>) {
-    for warning in warnings {
-        // A closed stderr is no reason to end.
-        let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
-    }
+    warnings.into_iter().for_each(|warning| tell("warning: ", &warning));
+}
+
+/// Prints a text to stderr, on one line or, on a terminal, on as many as its width needs.
+pub fn tell(before: &str, text: &str) {
+    let text = format!("{before}{}", one_line(text));
+    let indent = " ".repeat(before.len());
+    let width = Table::new().use_stderr().width().map(usize::from);
+    let text = width.map_or(text.clone(), |width| wrapped_at(width, &indent, &text));
+    // A closed stderr is no reason to end.
+    let _ = writeln!(stderr(), "{text}");
 }

@@ -6,7 +6,9 @@ use fem::fit::cradle::Measured;
 use fem_case::Scene;
 use fem_case::engineering::{show, takes_prefix};
 use fem_mesh::{Quality, SphereMesh};
+use fem_report::number_text::with_error;
 use indicatif::HumanCount;
+use textwrap::{Options, WordSeparator, WordSplitter};
 
 /// Longest cells, in characters, that do not wrap where there is room.
 const SHORT: usize = 28;
@@ -40,13 +42,17 @@ fn laid_out<R: Into<Row>>(
         }
     }
     let unwrapped = |[word, cell]: &[usize; 2]| if *cell <= SHORT { *cell } else { *word };
-    let width: usize = widths.iter().map(|width| unwrapped(width) + usize::from(GAP)).sum();
+    let gaps = usize::from(GAP) * widths.len().saturating_sub(1);
+    let width = widths.iter().map(unwrapped).sum::<usize>() + gaps;
+    let last = widths.len().saturating_sub(1);
     let fits = table.width().is_none_or(|available| width <= usize::from(available));
     let widths = widths.iter().map(|width| if fits { unwrapped(width) } else { width[0] });
-    for ((column, alignment), width) in table.column_iter_mut().zip(alignment).zip(widths) {
+    let columns = table.column_iter_mut().zip(alignment).zip(widths);
+    for (k, ((column, alignment), width)) in columns.enumerate() {
+        let gap = if k == last { 0 } else { GAP };
         column.set_cell_alignment(*alignment);
-        column.set_padding((0, GAP));
-        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
+        column.set_padding((0, gap));
+        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(gap);
         column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
     }
     table.trim_fmt() + "\n"
@@ -54,7 +60,20 @@ fn laid_out<R: Into<Row>>(
 
 /// Returns a text whose lines break between words at the width of a small terminal.
 pub fn wrapped(text: &str) -> String {
-    textwrap::fill(text, textwrap::Options::new(80).break_words(false))
+    wrapped_at(80, "", text)
+}
+
+/// Returns a text whose lines break between words at the width of the terminal, if there is one, and are indented where one goes on.
+pub fn hanging(text: &str) -> String {
+    let width = Table::new().width().map(usize::from);
+    width.map_or(text.to_string(), |width| wrapped_at(width, "    ", text))
+}
+
+/// Returns a text whose lines have at most this width where words allow it.
+pub fn wrapped_at(width: usize, indent: &str, text: &str) -> String {
+    let options = Options::new(width).subsequent_indent(indent).break_words(false);
+    let options = options.word_separator(WordSeparator::AsciiSpace);
+    textwrap::fill(text, options.word_splitter(WordSplitter::NoHyphenation))
 }
 
 /// Returns such a table below a header, whose cells `|` separates; `>` begins a column with numbers on the right.
@@ -81,13 +100,12 @@ pub fn show_value(value: f64, unit: &str) -> String {
     }
 }
 
-/// Returns `0.9250 ± 0.0031`, with two digits of the uncertainty.
+/// Returns `0.9250 ± 0.0031`, with two digits of the uncertainty where the value has no more than six.
 pub fn show_measured(Measured { value, uncertainty }: Measured, unit: &str) -> String {
     if uncertainty <= 0.0 {
         return format!("{value:.4} {unit}").trim_end().to_string();
     }
-    let digits = (1 - uncertainty.log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{value:.digits$} ± {uncertainty:.digits$} {unit}").trim_end().to_string()
+    format!("{} {unit}", with_error(value, Some(uncertainty))).trim_end().to_string()
 }
 
 /// Returns the size and the quality of both meshes; a rigid body has none.

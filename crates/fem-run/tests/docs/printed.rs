@@ -30,7 +30,7 @@ const SAID: [(&str, &str, &[&str]); 8] = [
     ("docs/gallery.md", "cases/glass_0.5ms_elastic.toml", &["less than 4e-4"]),
     (
         "docs/calibrate.md",
-        "calibrate cases/glass_0.5ms.toml --data validation/data/paper_glass.csv",
+        "calibrate cases/glass_0.5ms.toml --data validation/data/paper_glass.csv --verbose",
         &["0.1110", "355.6 µs"],
     ),
     ("docs/calibrate.md", "cases/glass_0.5ms.toml --set model.condensed={}", &["0.9277"]),

@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use fem_case::engineering::show;
+use fem_case::engineering::{Unit, number, range, show};
 use fem_case::schema::TermTable;
 use fem_case::{Body, Case, Scene};
 use fem_material::{ActsOn, Material, ZERO_CELSIUS};
@@ -219,15 +219,16 @@ fn coverage_of(body: &Body, contact_time: f64) -> Option<RelaxationCoverage> {
         Some(kelvin) => format!("{INSTRUMENT_FREQUENCY} Hz at {}", celsius(kelvin)),
         None => format!("at {} temperatures", if is_fast { "lower" } else { "higher" }),
     };
-    let wanted = format!("{side} {}, or {or}", show(wanted, "Hz"));
+    let hertz = |value: f64| {
+        let unit = Unit::fitting(value, "Hz");
+        format!("{} {}", number(unit.scaled(value), 2), unit.symbol())
+    };
+    let end =
+        if is_fast { format!("end at {}", hertz(to)) } else { format!("begin at {}", hertz(from)) };
     Some(of(Some(format!(
-        "the contact of {} asks for moduli from {} to {}; those of {} are measured from {} to {}{at}: {inside:.1} of \
-         {needed:.1} decades, ± input has the rest; measure {wanted}",
-        show(contact_time, "s"),
-        show(lowest, "Hz"),
-        show(highest, "Hz"),
+        "this contact needs moduli of {} at {}, and the data {end}{at} (± input has the extrapolation): measure {side} {}, or {or}",
         body.name(),
-        show(from, "Hz"),
-        show(to, "Hz"),
+        range([lowest, highest], "Hz"),
+        hertz(wanted)
     ))))
 }

@@ -49,8 +49,8 @@ fn decision_words(text: &str, overrides: &[&str]) -> String {
 fn an_unknown_strength_is_that_of_the_nearest_material() {
     for model in &MODELS[..4] {
         let (decision, warnings) = decision_on(STEEL, &[model]);
-        // Johnson's ½mv² = 53 R³Y⁵/E*⁴ with 235 MPa is 1.85 mm/s.
-        let told = "as stiff and heavy as steel, which yields from 1.85";
+        // Johnson's ½mv² = 53 R³Y⁵/E*⁴ with 235 MPa is 1.85 mm/s, printed with two digits.
+        let told = "as stiff and heavy as steel, which yields from 1.8 mm/s";
         assert!(warnings.contains(told), "{model}: {warnings}");
         let keys = "set material.steel.yield_strength, or material.steel.elastic = true";
         assert!(warnings.ends_with(keys), "{warnings}");
@@ -78,7 +78,7 @@ fn a_known_strength_is_computed_or_makes_bounds() {
             assert!(flow.unwrap().active && !warnings.contains("yields"), "{warnings}");
         } else {
             assert!(flow.unwrap().reason.contains("the results are bounds"));
-            assert!(warnings.contains("lower yields from 69.1"), "{model}: {warnings}");
+            assert!(warnings.contains("lower yields from 69 mm/s"), "{model}: {warnings}");
             assert!(warnings.contains("use model fem, or law mean_pressure"), "{warnings}");
             assert_eq!(warnings.lines().count(), 1, "{model}: {warnings}");
         }

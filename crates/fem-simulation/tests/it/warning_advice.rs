@@ -72,7 +72,7 @@ const ROWS: [Row; 32] = [
         "energy balance",
         1,
     ),
-    (SOFT, &[RUBBER], "names no elastic law", 1),
+    (SOFT, &[RUBBER], "elastic laws differ", 1),
     (SOFT, &["material.rubber.hyperelastic='saint-venant-kirchhoff'"], "lose its stability", 1),
     (
         GLASS,

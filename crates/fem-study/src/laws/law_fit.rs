@@ -363,8 +363,8 @@ impl<'a> LawFit<'a> {
             && fit.rms < FAR_FROM_ELEMENTS * flowing.rms
         {
             warnings.push(format!(
-                "{} fits best, but mean_pressure, which follows finite elements of bodies that flow, has an rms error \
-                 of {:.4}: plastic flow of smooth bodies alone does not make these data",
+                "{} fits better than mean_pressure, the law of elements that flow (rms error {:.4}): plastic flow alone \
+                 cannot explain these data",
                 family.name(),
                 flowing.rms
             ));

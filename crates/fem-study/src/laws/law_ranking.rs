@@ -61,7 +61,7 @@ pub struct LawRanking {
 }
 
 impl LawRanking {
-    /// Fits every law that loses energy. Its damping is free and, if there are contact times, stiffnesses that no theory
+    /// Fits every law of `among` that loses energy. Its damping is free and, if there are contact times, stiffnesses that no theory
     /// gives; see [`ChosenLaw::problem`]. Robust fits count data far from their curves little.
     ///
     /// # Errors
@@ -69,13 +69,14 @@ impl LawRanking {
     pub fn of(
         case: &Case,
         data: &Restitutions,
+        among: &[LawFamily],
         end_rule: Option<EndRule>,
         is_robust: bool,
     ) -> Result<Self, LawFault> {
         let mut found: Vec<(RankedLaw, Option<f64>)> = Vec::new();
         let (mut twins, mut others, mut last) = (Vec::new(), Vec::new(), None);
         let is_weighted = data.points.iter().all(|point| point.restitution_uncertainty.is_some());
-        for (family, exponent) in candidates() {
+        for (family, exponent) in candidates(among) {
             match fitted(case, data, (family, exponent), (end_rule, is_robust)) {
                 Ok(law) => {
                     let rms = law.fit.rms;
@@ -126,12 +127,13 @@ impl LawRanking {
     }
 }
 
-/// Returns the laws that lose energy with their damping free, and again with an exponent free that has a default. Laws that
+/// Returns the laws of `among` that lose energy with their damping free, and again with an exponent free that has a default. Laws that
 /// dent are fitted by name only.
-fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
+fn candidates(among: &[LawFamily]) -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
     // The general law comes last, because its defaults are those of a named law.
     let named = LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Power);
-    let lossy = named.chain([LawFamily::Power]).filter(|family| loss_parameter(*family).is_ok());
+    let wanted = named.chain([LawFamily::Power]).filter(|family| among.contains(family));
+    let lossy = wanted.filter(|family| loss_parameter(*family).is_ok());
     lossy.flat_map(|family| {
         let has_default = |key: &&'static str| {
             let mut parameters = family.parameters().iter();

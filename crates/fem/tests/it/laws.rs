@@ -217,8 +217,14 @@ fn ting_replaces_elements_if_a_body_relaxes() {
 fn few_data_prefer_the_fewest_parameters() {
     for points in [[(0.05, 0.93), (0.2, 0.9)].as_slice(), &[(0.05, 0.93), (0.1, 0.915), (0.2, 0.9)]]
     {
-        let ranking =
-            LawRanking::of(&ball(None), &Restitutions::of("few", points), None, false).unwrap();
+        let ranking = LawRanking::of(
+            &ball(None),
+            &Restitutions::of("few", points),
+            &LawFamily::ALL,
+            None,
+            false,
+        )
+        .unwrap();
         let fewest = ranking.laws.iter().map(|law| law.free.len()).min().unwrap();
         let most = ranking.laws.iter().map(|law| law.free.len()).max().unwrap();
         assert!(
@@ -251,7 +257,7 @@ fn laws_are_ranked_by_their_evidence() {
         if is_weighted {
             data.set_uncertainty(0.003).unwrap();
         }
-        let ranking = LawRanking::of(&case, &data, None, false).unwrap();
+        let ranking = LawRanking::of(&case, &data, &LawFamily::ALL, None, false).unwrap();
         let place = |family: LawFamily, n_free: usize| {
             let is_it = |law: &&RankedLaw| (law.family(), law.free.len()) == (family, n_free);
             ranking.laws.iter().find(is_it).unwrap()

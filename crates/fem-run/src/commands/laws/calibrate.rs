@@ -18,10 +18,11 @@ use crate::arguments::law::{parse_confidence, parse_share};
 use crate::jobs::value_of;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
+use crate::text::run_report::Detail;
 
-/// Find a Prony series from measured restitutions, and what they leave undetermined
+/// Find a Prony series from measured restitutions
 ///
-/// The case gives bodies and instantaneous moduli, a CSV file the restitutions. Writes calibrate.json,
+/// Also finds what they leave undetermined. The case gives bodies and instantaneous moduli, a CSV file the restitutions. Writes calibrate.json,
 /// relaxation.toml (to paste into the case), residuals.csv and calibrate.svg, and prints each weight with
 /// the range that the data allow.
 #[derive(clap::Args, Debug)]
@@ -72,6 +73,9 @@ pub struct Arguments {
     #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
         value_parser = parse_confidence)]
     confidence: f64,
+    /// Print everything: also which combinations of weights the data determine
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -105,7 +109,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals());
     output.write("calibrate.svg", picture);
     let numbers = found.numbers(&arguments.input.name(), warnings.clone());
-    output.publish(&numbers, |_| calibration_text(&found, &warnings))
+    let detail = if arguments.verbose { Detail::All } else { Detail::Short };
+    output.publish(&numbers, |_| calibration_text(&found, &warnings, detail))
 }
 
 /// Calibrates to a table in memory and returns the numbers, with the table to paste into the case.

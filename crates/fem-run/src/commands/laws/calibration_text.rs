@@ -7,21 +7,25 @@ use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
 
 use super::fit_text::{relative, weighted_down};
-use crate::text::tables::{headed, show_value};
+use crate::text::run_report::Detail;
+use crate::text::tables::{hanging, headed, show_value};
 
 /// Smaller relative changes are rounding.
 const ROUNDING: f64 = 1e-9;
 
-pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
+/// Returns the whole text or, in short, one without the combinations of weights.
+pub fn calibration_text(found: &Calibration, warnings: &[String], detail: Detail) -> String {
     let mut text = heading(found);
     text += &weights(found);
     text += &prior(found);
     text += &inputs(found);
     text += "\n";
-    text += &combinations(found);
-    text += "\n";
+    if detail == Detail::All {
+        text += &combinations(found);
+        text += "\n";
+    }
     let fit = &found.fit;
-    text += &format!(
+    text += &hanging(&format!(
         "rms error: {}; with a single Maxwell term (weight 1, {}): {}\n",
         number(fit.rms, 3),
         match found.maxwell.beyond {
@@ -33,19 +37,19 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
             ),
         },
         number(found.maxwell.rms, 3)
-    );
+    ));
     if let Some(exponent) = found.loss_exponent() {
         let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
-        text += &format!(
+        text += &hanging(&format!(
             "1 - e is proportional to speed^{:.3}{error} (Prony series give powers from -0.2 to 0.2)\n",
             exponent.value
-        );
+        ));
     }
     if let Some(robustness) = &fit.robustness {
         text += &weighted_down(&found.measured.data, robustness, &robustness.weights);
     }
     for warning in warnings {
-        text += &format!("warning: {warning}\n");
+        text += &hanging(&format!("warning: {warning}\n"));
     }
     text
 }
@@ -68,15 +72,15 @@ fn heading(found: &Calibration) -> String {
     let none =
         found.why_none_fits().map(|why| format!("no Prony series fits these data: {why}\n\n"));
     let mut text = none.unwrap_or_default();
-    text += &format!(
+    text += &hanging(&format!(
         "{} (between {} and {}) of {moduli} of {} relaxes; rms error of the restitution {}\n\n",
         number(total.value, 3),
         number(total.low, 3),
         number(total.high, 3),
         found.target.material,
         number(found.fit.rms, 2),
-    );
-    text += &format!(
+    ));
+    text += &hanging(&format!(
         "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
         counted(found.times.len(), "term"),
         found.target.material,
@@ -86,14 +90,14 @@ fn heading(found: &Calibration) -> String {
         counted(found.experiments.len(), "pair"),
         span(found.measured.data.speeds(), "m/s"),
         span(found.contact_times(), "s"),
-    );
+    ));
     let across = found.experiments.iter().filter_map(|experiment| experiment.elements_across);
     let across = across.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     if let Some((smallest, largest)) = across {
-        text += &format!(
+        text += &hanging(&format!(
             "one mesh per pair: {smallest:.1} elements across the smallest contact radius, \
              {largest:.1} across the largest\n"
-        );
+        ));
     }
     text + "\n"
 }

@@ -17,15 +17,16 @@ use crate::jobs::value_of;
 use crate::result_folder::Origin;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
+use crate::text::run_report::Detail;
 use crate::text::shown;
 use crate::text::standard_output;
 
 /// Error of e up to which the one e of a pair counts as valid by default.
 const PAIRS_TOLERANCE: f64 = 0.01;
 
-/// Write input for DEM codes and robotics that reproduces the restitutions
+/// Write input for DEM codes that reproduces the restitutions
 ///
-/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. The restitutions come from
+/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM and, in robotics, Drake and MuJoCo. The restitutions come from
 /// the sweep.csv of a sweep over speeds, from a measurement, from a law fitted to one or, without --data
 /// and --fit, from the case: its contact law or, in place of another model, the law mean_pressure where bodies flow and
 /// Ting's or Hertz' model elsewhere. Each snippet states the speeds for which it is valid.
@@ -59,6 +60,9 @@ pub struct Arguments {
     /// three standard deviations of the data from a smooth curve, or the rms error of the fit]
     #[arg(long, value_name = "E", value_parser = parse_share)]
     tolerance: Option<f64>,
+    /// Print everything: also the numbers in each file that decide on the loss
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -85,7 +89,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     output.write("export.svg", export_figure(&fitted));
     output.publish(&fitted.numbers(&arguments.input.name(), &snippets), |_| {
-        let mut text = export_text(&fitted, &snippets);
+        let detail = if arguments.verbose { Detail::All } else { Detail::Short };
+        let mut text = export_text(&fitted, &snippets, detail);
         text += &law_note(&fitted, arguments.data.is_some());
         if fitted.curve.has_hertz_times {
             text += "\nThe data have no contact times: the linear models use those of Hertz.\n";

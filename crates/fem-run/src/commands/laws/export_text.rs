@@ -9,23 +9,30 @@ use fem_laws::LawFamily;
 use serde_json::{Value, json};
 
 use crate::jobs::value_of;
+use crate::text::run_report::Detail;
 use crate::text::standard_output;
-use crate::text::{Failure, headed, wrapped};
+use crate::text::{Failure, hanging, headed};
 
-pub fn export_text(fitted: &DemExport, snippets: &[Snippet]) -> String {
+/// Returns the files with their ranges and, if all is wanted, the numbers in them that decide on the loss.
+pub fn export_text(fitted: &DemExport, snippets: &[Snippet], detail: Detail) -> String {
     let DemExport { export, curve, .. } = fitted;
     let row = |snippet: &Snippet| {
         let [from, to, worst] = snippet.validity;
         let entries =
             snippet.entries.iter().map(|(key, value)| format!("{key} {}", number(*value, 5)));
-        [
+        let mut cells = vec![
             snippet.name.to_string(),
             valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
             format!("{worst:.3}"),
-            entries.collect::<Vec<_>>().join(", "),
-        ]
+        ];
+        let input = entries.collect::<Vec<_>>().join(", ");
+        cells.extend(Some(input).filter(|_| detail == Detail::All));
+        cells
     };
-    let header = "file|valid|>worst|input";
+    let header = match detail {
+        Detail::All => "file|valid|>worst|input",
+        Detail::Short => "file|valid|>worst",
+    };
     let of_scatter = match curve.law {
         _ if export.tolerance != curve.scatter => String::new(),
         Some(law) => format!(", the error of the law {}", law.name()),
@@ -38,12 +45,12 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet]) -> String {
         show(export.speeds.1, "m/s"),
     );
     let judged = format!(
-        "A snippet is valid where its error of the restitution is at most {}{of_scatter}; worst: its largest error. \
+        "valid: speeds at which the error of e is at most {}{of_scatter}; worst: its largest error. \
          Models with one e for all speeds have {:.4}; where a code makes another e of its input, the input is corrected.",
         number(export.tolerance, 2),
         export.restitution
     );
-    format!("{heading}\n\n{}\n\n{}", wrapped(&judged), headed(header, snippets.iter().map(row)))
+    format!("{heading}\n\n{}\n\n{}", hanging(&judged), headed(header, snippets.iter().map(row)))
 }
 
 /// Returns which laws the files have, and why not the one that fits best.
@@ -78,7 +85,7 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
             )
         }
     };
-    format!("\n{}\n", wrapped(&note))
+    format!("\n{}\n", hanging(&note))
 }
 
 /// Returns the speeds for which a snippet is valid.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use fem::fit::dem::CODE_LAWS;
 use fem::fit::{Free, Problem};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
 use fem::measured::{Restitutions, Table};
@@ -42,6 +43,10 @@ pub struct Arguments {
     /// that of the case's model, or all]
     #[arg(long, value_name = "LAW", value_parser = parse_wanted)]
     law: Option<Wanted>,
+    /// Find the best law among those that this code has
+    #[arg(long = "for", value_name = "CODE", conflicts_with = "law",
+        value_parser = CODE_LAWS.map(|(code, _)| code))]
+    code: Option<String>,
     /// Parameters to fit, such as a,n [default: the damping parameter]
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     free: Vec<String>,
@@ -119,7 +124,7 @@ fn fitted<T>(
         true => Restitutions::read_with_contact_times(table, case.scene())?,
         false => Restitutions::read(table, case.scene())?,
     };
-    let of_case = || family_of(case.scene()).map(Wanted::One);
+    let of_case = || family_of(case.scene()).map(Wanted::One).filter(|_| arguments.code.is_none());
     let wanted = arguments.law.or_else(of_case).unwrap_or(Wanted::All);
     let ranking = match wanted {
         Wanted::One(_) => None,
@@ -186,7 +191,10 @@ fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<Law
         return Err(Failure::bad_input(format!("{option} applies to a single law, not to all"))
             .with_help("leave it out, or name the law, such as --law kuwabara_kono"));
     }
-    Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule), arguments.robust)?)
+    let of_code = CODE_LAWS.iter().find(|(code, _)| arguments.code.as_deref() == Some(code));
+    let among = of_code.map_or(&LawFamily::ALL[..], |(_, laws)| laws);
+    let end_rule = arguments.values.end.map(End::rule);
+    Ok(LawRanking::of(case, data, among, end_rule, arguments.robust)?)
 }
 
 fn problem<'a>(

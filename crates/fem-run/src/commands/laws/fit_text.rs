@@ -14,7 +14,7 @@ use fem_laws::{LawFamily, LawParameter};
 use fem_report::law_figures::{MAX_RANKED, evidence};
 
 use crate::text::run_report::Detail;
-use crate::text::{headed, one_line, show_value, shown};
+use crate::text::{hanging, headed, one_line, show_value, shown};
 
 /// Largest number of points that a text lists.
 const MOST_LISTED: usize = 6;
@@ -30,7 +30,8 @@ pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let fitted: Vec<String> = fitted.collect();
     let best = match ranking {
         Some(ranking) if ranking.laws.iter().any(|law| law.weight.is_some()) => {
-            format!(" fits best of {} laws", ranking.laws.len())
+            let n = ranking.laws.len();
+            format!(" fits best of {n} law{}", if n == 1 { "" } else { "s" })
         }
         _ => String::new(),
     };
@@ -93,7 +94,8 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw, ranked: Option<&LawRanking
 fn parameters(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let LawFit { problem, fit, .. } = fitted;
     let level = 100.0 * fitted.confidence;
-    let header = format!("|>best value|>standard error|{level} % interval|by profile");
+    let by_profile = if fitted.profile.is_some() { "|by profile" } else { "" };
+    let header = format!("|>best value|>standard error|{level} % interval{by_profile}");
     let rows = problem.model.family().parameters().iter().enumerate().map(|(index, parameter)| {
         let shown = |value: f64| show_value(value, parameter.unit);
         let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
@@ -112,7 +114,9 @@ fn parameters(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
                 ),
             ],
         };
-        [parameter.key.to_string(), shown(fit.values[index]), error, interval, profile]
+        let mut cells = vec![parameter.key.to_string(), shown(fit.values[index]), error, interval];
+        cells.extend(fitted.profile.as_ref().map(|_| profile));
+        cells
     });
     headed(&header, rows)
 }
@@ -144,7 +148,7 @@ fn errors_by_inputs(fitted: &LawFit<'_>) -> String {
                 None => ", no fit within the error of the law itself".to_string(),
             },
         };
-        format!("standard error of {}: {data} by the data{parts}{law}\n", estimate.key)
+        hanging(&format!("standard error of {}: {data} by the data{parts}{law}\n", estimate.key))
     };
     let has_parts = !fitted.inputs.is_empty() || fitted.by_law.iter().any(|part| *part != 0.0);
     fitted.fit.estimates.iter().enumerate().filter(|_| has_parts).map(row).collect()
@@ -162,7 +166,7 @@ fn compared(fitted: &LawFit<'_>, unit: &str, n_skipped: usize) -> String {
         let parameters = model.family().parameters().iter().zip(&fit.values);
         let values: Vec<_> = parameters.map(|(it, value)| parameter(fit, it, *value)).collect();
         let name = model.family().name();
-        format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "))
+        hanging(&format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", ")))
     };
     fitted.compared.iter().skip(n_skipped).map(line).collect()
 }
@@ -207,7 +211,7 @@ pub fn next_steps(fitted: &LawFit<'_>, case: &str, kept: Option<&Path>) -> Strin
     });
     let case = one_line(case);
     let export = kept.map_or(String::new(), |folder| {
-        format!("Input for DEM codes: fem-run export {case} --fit {}\n", shown(folder))
+        format!("Input for DEM codes:\n    fem-run export {case} --fit {}\n", shown(folder))
     });
     model + &export
 }
@@ -247,8 +251,8 @@ pub fn ranking_text(ranking: &LawRanking, detail: Detail) -> String {
     text += match ranking.laws.iter().any(|law| law.weight.is_some()) {
         true => "evidence: share of each law among these; all of them may be wrong\n",
         false => {
-            "there are too few data to rank the laws: the first merely has the fewest parameters. Measure at \
-             more speeds, or give uncertainties\n"
+            "there are too few data to rank the laws: the first merely has the fewest\n\
+             parameters. Measure at more speeds, or give uncertainties\n"
         }
     };
     if detail == Detail::Short {
@@ -258,10 +262,10 @@ pub fn ranking_text(ranking: &LawRanking, detail: Detail) -> String {
     for of in of {
         let twins = ranking.twins.iter().filter(|twin| twin.1 == of).map(|twin| twin.0.as_str());
         let twins: Vec<&str> = twins.collect();
-        text += &format!("the same curve as {of}: {}\n", twins.join(", "));
+        text += &hanging(&format!("the same curve as {of}: {}\n", twins.join(", ")));
     }
     for (law, why) in &ranking.others {
-        text += &format!("not ranked: {law}: {}\n", one_line(why));
+        text += &hanging(&format!("not ranked: {law}: {}\n", one_line(why)));
     }
     text + "\n"
 }

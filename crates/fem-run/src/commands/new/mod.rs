@@ -29,7 +29,7 @@ const SCHEMA_FILE: &str = "fem-run.schema.json";
 /// Identifies a schema of this program.
 const SCHEMA_TITLE: &str = "A case of fem-run";
 
-/// Write a case to start from, NAME.toml, with comments on what can be changed
+/// Write a commented case to start from, NAME.toml
 ///
 /// fem-run.schema.json next to it lets editors complete and check keys. No file is overwritten.
 #[derive(clap::Args, Debug)]
@@ -103,8 +103,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         false => format!(" (the existing {SCHEMA_FILE} is not from fem-run and is kept)"),
     };
     standard_output::print(&format!(
-        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   prints its cost \
-         and the effects that it includes, and with --resolved its defaults\n"
+        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   prints cost and effects; \
+         --resolved: the defaults\n"
     ))
 }
 

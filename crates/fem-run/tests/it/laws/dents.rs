@@ -35,7 +35,7 @@ fn a_flowing_pair_is_exported_with_laws_that_dent() {
     let place = Place::with(&flowing());
     let ran = place.succeed("export case.toml");
     ran.prints("at most 0.018|error of the law mean_pressure");
-    ran.prints("LAMMPS' mdr\nand Luding's springs");
+    ran.prints("LAMMPS' mdr and Luding's springs");
     let numbers = place.json("runs/case_export/export.json");
     let snippets = numbers["snippets"].as_array().unwrap();
     let worst = |file: &str| {

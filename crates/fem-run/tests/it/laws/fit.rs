@@ -546,7 +546,7 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     let next = lines[of_mishra.unwrap() + 1];
     assert!(next.starts_with("bordbar_hyppanen  a, n"), "{}", ran.stdout);
     assert!(place.json("out/fit.json")["law"] == "thornton");
-    ran.tells("thornton fits best, but mean_pressure, which follows finite elements");
+    ran.tells("thornton fits better than mean_pressure, the law of elements that flow");
     // Each law appears once, and all are fitted.
     assert!(!ran.stdout.contains("not ranked"), "{}", ran.stdout);
     let twins = "the same curve as linear: tsuji, zhang_whiten, falcon";
@@ -568,7 +568,14 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
         assert_eq!(found.clone().any(|text| text.contains(&share)), k < 3, "{title}, {share}");
         assert!(k == 0 || kept[k - 1]["law"] == law, "{kept:?}");
     }
-    place.fails(2, (all.0, all.1, "--free a")).tells("--free applies to a single law");
+    place.fails(2, (all.0, all.1.as_slice(), "--free a")).tells("--free applies to a single law");
+    // Drake has one law, and a code that nobody knows has none.
+    let of_one = "fit case.toml --out drake --for drake --data";
+    place.succeed((of_one, all.1.as_slice())).prints("(hunt_crossley fits best of 1 law)");
+    assert_eq!(place.text("drake/ranking.csv").lines().count(), 2);
+    place
+        .fails(2, (&of_one.replace("--for drake", "--for abaqus"), all.1))
+        .tells("lammps, liggghts");
 }
 
 /// Tables as people have them.

@@ -5,7 +5,7 @@
 //! yield it is computed as elastic. The results of a run without flow are bounds. A material without a strength is judged by
 //! that of the library's material with the nearest stiffness and density.
 
-use fem_case::engineering::show;
+use fem_case::engineering::{Unit, number, show};
 use fem_case::library::LikeMaterial;
 use fem_case::{Body, MAX_MODULUS_OF_POLYMERS, Scene, Switch};
 use fem_laws::{FirstYield, largest_von_mises};
@@ -89,10 +89,12 @@ impl<'a> Onset<'a> {
         self.body.material().is_none_or(|material| material.flow().is_none())
     }
 
-    /// Returns the approach speed from which on the body yields, as text.
+    /// Returns the approach speed from which on the body yields, as text with the two digits that a strength deserves.
     fn speed(&self, estimate: &Estimate) -> String {
         let relaxed = self.first.elastic().peak_pressure / self.elastic_pressure(estimate);
-        show(self.first.speed * relaxed.powf(2.5), "m/s")
+        let speed = self.first.speed * relaxed.powf(2.5);
+        let unit = Unit::fitting(speed, "m/s");
+        format!("{} {}", number(unit.scaled(speed), 2), unit.symbol())
     }
 
     /// Returns why a model without flow gives bounds, and what to do.

@@ -375,13 +375,21 @@ impl Effect for FiniteStrain {
         let has_end = collision.contact_time.is_some();
         let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
             format!(
-                "the contact radius reached {:.1} % of the effective radius, where the choice of an elastic law changes \
-                 the contact time by {} {}, and the case names no elastic law; set material.NAME.hyperelastic",
-                100.0 * strain,
+                "at this strain elastic laws differ by {} {} in contact time: choose one, {}",
                 if is_beyond(scene, &found) { "more than" } else { "up to" },
-                percent(spread)
+                percent(spread),
+                softest_without_law(scene)
+                    .map_or(String::new(), |body| body.material_key("hyperelastic"))
             )
         });
         strain_warning.into_iter().chain(law).collect()
     }
+}
+
+/// Returns the most compliant body whose material names no elastic law.
+fn softest_without_law(scene: &Scene) -> Option<&Body> {
+    let bodies = scene.bodies().iter().filter_map(|body| Some((body, body.material()?)));
+    let open = bodies.filter(|(_, material)| material.named_law().is_none());
+    let modulus = |material: &Material| material.instantaneous().youngs_modulus();
+    open.min_by(|a, b| modulus(a.1).total_cmp(&modulus(b.1))).map(|(body, _)| body)
 }
