@@ -5,7 +5,7 @@ use fem_case::library::{Material, materials};
 use fem_case::parse_quantity;
 use serde_json::Value;
 
-use crate::common::Place;
+use crate::common::{Place, number};
 use crate::texts::printed_numbers::odd_number;
 
 const KEYS: [(&str, &str); 6] = [
@@ -196,15 +196,14 @@ fn compare(of: &str, text: &str) -> Value {
     summary
 }
 
+const BLOCK: &str = "half_space = {}";
+const BLOCK_OF_STEEL: [&str; 2] = [BLOCK, "steel"];
+
 /// The input of LAMMPS, whose restitution is one of a few numbers after the modulus.
 const LAMMPS: &str = "lammps_coeff_restitution.in";
 
 fn has_strength(entry: &Material) -> bool {
     entry.material.yield_strength.is_some() || entry.material.flow.is_some()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 /// Compares the law that falls with speed with a run on a half-space, since the codes have no plate.
@@ -365,129 +364,77 @@ fn shares_of_energy_are_those_of_any_frame() {
     assert!((50.0..100.0).contains(&percent.trim().parse::<f64>().unwrap()), "{shares:?}");
 }
 
-/// Scenes with the statuses of restitution and peak force, and whether a DEM file is written.
+/// Scenes of a ball on a floor, with the statuses of restitution and peak force, and whether a DEM file is written.
 #[test]
 fn scenes_say_the_same_everywhere() {
+    const TYPED: &str =
+        "[material.mine]\ndensity = 7850\nyoungs_modulus = '210 GPa'\npoissons_ratio = 0.3\n";
+    const MEANT: &str = "elastic = true\n";
+    const STICKY: &str = "[contact]\nwork_of_adhesion = '0.1 J/m^2'\n";
+    const NO_FLOW: &str = "[effects]\nplastic_flow = 'off'\n";
+    const COMPUTED: [&str; 2] = ["computed"; 2];
+    const BOUND: [&str; 2] = ["bound"; 2];
+    const OF_LOSS: [&str; 2] = ["bound", "computed"];
     let named = |material: &str| match material {
         "mine" => material.to_string(),
         _ => format!("lib:{material}"),
     };
-    let block =
-        |material: &str| floor(&format!("half_space = {{}}\nmaterial = '{}'", named(material)));
-    let plate = |thickness: &str, material: &str| {
-        floor(&format!("plate.thickness = '{thickness}'\nmaterial = '{}'", named(material)))
-    };
-    let coarse = "[accuracy]\ntolerance = '5 %'\n[output]\nsnapshots = []\n";
-    let typed =
-        "[material.mine]\ndensity = 7850\nyoungs_modulus = '210 GPa'\npoissons_ratio = 0.3\n";
-    let meant = typed.to_string() + "elastic = true\n";
-    let sticky = "[contact]\nwork_of_adhesion = '0.1 J/m^2'\n";
-    let scenes = [
-        (
-            "steel flows",
-            block("steel") + &ball("10 mm", "1 m/s", "lib:steel") + coarse,
-            ["computed"; 2],
-            true,
-        ),
-        (
-            "slow steel",
-            block("steel") + &ball("10 mm", "1 mm/s", "lib:steel") + coarse,
-            ["bound", "computed"],
-            false,
-        ),
-        (
-            "hard on soft",
-            block("steel") + &ball("10 mm", "1 m/s", "lib:bearing-steel") + coarse,
-            ["computed"; 2],
-            true,
-        ),
-        (
-            "ting",
-            block("steel") + &ball("10 mm", "1 m/s", "lib:steel") + coarse + "[model.ting]\n",
-            ["bound"; 2],
-            true,
-        ),
-        (
-            "flow off",
-            block("steel")
-                + &ball("10 mm", "1 m/s", "lib:steel")
-                + coarse
-                + "[effects]\nplastic_flow = 'off'\n",
-            ["bound"; 2],
-            false,
-        ),
-        (
-            "typed steel",
-            typed.to_string() + &block("steel") + &ball("10 mm", "1 m/s", "mine") + coarse,
-            ["bound"; 2],
-            false,
-        ),
-        (
-            "ice",
-            block("ice") + &ball("5 cm", "1 cm/s", "lib:ice") + coarse,
-            ["bound", "computed"],
-            false,
-        ),
-        (
-            "PMMA",
-            block("steel") + &ball("10 mm", "0.1 m/s", "lib:pmma") + coarse,
-            ["bound", "computed"],
-            false,
-        ),
-        (
-            "dust",
-            block("fused-silica") + &ball("1 um", "0.1 m/s", "lib:fused-silica") + coarse,
-            ["bound"; 2],
-            false,
-        ),
+    // Name; floor and its material, a wall without one; ball: diameter, speed and material; more tables.
+    for (name, [shape, below], [diameter, speed, material], more, statuses, is_exported) in [
+        ("steel flows", BLOCK_OF_STEEL, ["10 mm", "1 m/s", "steel"], "", COMPUTED, true),
+        ("slow steel", BLOCK_OF_STEEL, ["10 mm", "1 mm/s", "steel"], "", OF_LOSS, false),
+        ("hard on soft", BLOCK_OF_STEEL, ["10 mm", "1 m/s", "bearing-steel"], "", COMPUTED, true),
+        ("ting", BLOCK_OF_STEEL, ["10 mm", "1 m/s", "steel"], "[model.ting]\n", BOUND, true),
+        ("flow off", BLOCK_OF_STEEL, ["10 mm", "1 m/s", "steel"], NO_FLOW, BOUND, false),
+        ("typed steel", BLOCK_OF_STEEL, ["10 mm", "1 m/s", "mine"], "", BOUND, false),
+        ("ice", [BLOCK, "ice"], ["5 cm", "1 cm/s", "ice"], "", OF_LOSS, false),
+        ("PMMA", BLOCK_OF_STEEL, ["10 mm", "0.1 m/s", "pmma"], "", OF_LOSS, false),
+        ("dust", [BLOCK, "fused-silica"], ["1 um", "0.1 m/s", "fused-silica"], "", BOUND, false),
         (
             "dust that sticks",
-            block("fused-silica") + &ball("1 um", "0.02 m/s", "lib:fused-silica") + sticky + coarse,
-            ["computed"; 2],
+            [BLOCK, "fused-silica"],
+            ["1 um", "0.02 m/s", "fused-silica"],
+            STICKY,
+            COMPUTED,
             false,
         ),
-        (
-            "steel of Hertz",
-            floor("wall = {}") + &ball("10 mm", "1 m/s", "lib:steel") + coarse + "[model.hertz]\n",
-            ["bound"; 2],
-            true,
-        ),
-        (
-            "elastic by wish",
-            meant.clone() + &block("mine") + &ball("10 mm", "1 m/s", "mine") + coarse,
-            ["computed"; 2],
-            true,
-        ),
+        ("Hertz", ["wall = {}", ""], ["10 mm", "1 m/s", "steel"], "[model.hertz]\n", BOUND, true),
+        ("elastic by wish", [BLOCK, "mine"], ["10 mm", "1 m/s", "mine"], "", COMPUTED, true),
         (
             "elastic by wish, any model",
-            meant.clone()
-                + &block("mine")
-                + &ball("10 mm", "1 m/s", "mine")
-                + coarse
-                + "[model.auto]\n",
-            ["computed"; 2],
+            [BLOCK, "mine"],
+            ["10 mm", "1 m/s", "mine"],
+            "[model.auto]\n",
+            COMPUTED,
             true,
         ),
         (
             "elastic by wish, on a plate",
-            meant.clone() + &plate("5 mm", "mine") + &ball("10 mm", "1 m/s", "mine") + coarse,
-            ["computed"; 2],
+            ["plate.thickness = '5 mm'", "mine"],
+            ["10 mm", "1 m/s", "mine"],
+            "",
+            COMPUTED,
             true,
         ),
-        (
-            "polymer",
-            block("steel") + &ball("10 mm", "0.1 m/s", "lib:pvb") + coarse,
-            ["computed"; 2],
-            true,
-        ),
+        ("polymer", BLOCK_OF_STEEL, ["10 mm", "0.1 m/s", "pvb"], "", COMPUTED, true),
         (
             "plate",
-            plate("5 mm", "steel") + &ball("10 mm", "0.5 m/s", "lib:steel") + coarse,
-            ["computed"; 2],
+            ["plate.thickness = '5 mm'", "steel"],
+            ["10 mm", "0.5 m/s", "steel"],
+            "",
+            COMPUTED,
             true,
         ),
-    ];
-    for (name, text, statuses, is_exported) in scenes {
+    ] {
+        let below = match below {
+            "" => floor(shape),
+            below => floor(&format!("{shape}\nmaterial = '{}'", named(below))),
+        };
+        let material_table = if material == "mine" { TYPED } else { "" };
+        let meant = if name.starts_with("elastic") { MEANT } else { "" };
+        let ball = ball(diameter, speed, &named(material));
+        let coarse = "[accuracy]\ntolerance = '5 %'\n[output]\nsnapshots = []\n";
+        let text = [material_table, meant, &below, &ball, coarse, more].concat();
         let summary = compare(name, &text);
         let found = ["restitution", "peak_force_n"].map(|key| summary["status"][key].clone());
         assert_eq!(found, statuses, "{name}");

@@ -32,7 +32,7 @@ const COLLIDING: [&str; 5] =
 const TERMINAL: [&str; 7] =
     ["clap", "clap_complete", "comfy-table", "indicatif", "miette", "signal-hook", "textwrap"];
 
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
@@ -178,7 +178,7 @@ fn docstrings(source: &str) -> Vec<(usize, String)> {
 fn docstrings_are_sentences() {
     const FRAGMENTS: [&str; 3] = ["Of ", "What a ", "What an "];
     let (mut faults, mut n_read) = (Vec::new(), 0);
-    for (path, source) in sources() {
+    for (path, source) in sources(root()) {
         for (line, text) in docstrings(&source) {
             n_read += 1;
             let starts = FRAGMENTS.iter().any(|start| text.starts_with(start));
@@ -195,7 +195,7 @@ fn docstrings_are_sentences() {
 /// sentence.
 #[test]
 fn comments_name_types_in_backticks() {
-    let sources = sources();
+    let sources = sources(root());
     let words = |text: &str| -> Vec<String> {
         let words =
             text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty());
@@ -248,7 +248,7 @@ fn comments_name_types_in_backticks() {
 fn messages_show_no_bare_metres() {
     let bare = ["} m\"", "} m;", "} m,", "} m)"];
     let mut faults = Vec::new();
-    for (path, source) in sources() {
+    for (path, source) in sources(root()) {
         let path = path.to_string_lossy().into_owned();
         let is_message = |line: &&str| !line.trim_start().starts_with("//");
         let found = source.lines().filter(is_message);
@@ -261,9 +261,9 @@ fn messages_show_no_bare_metres() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Returns all source files of the repository with their paths.
-fn sources() -> Vec<(PathBuf, String)> {
-    let (mut sources, mut open) = (Vec::new(), vec![root()]);
+/// Returns all source files below a folder with their paths.
+pub fn sources(folder: PathBuf) -> Vec<(PathBuf, String)> {
+    let (mut sources, mut open) = (Vec::new(), vec![folder]);
     while let Some(path) = open.pop() {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.is_dir() {

@@ -8,10 +8,9 @@ use std::process::{Child, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use nix::sys::signal::{Signal, kill};
-use nix::unistd::Pid;
+use nix::sys::signal::Signal;
 
-use crate::common::Place;
+use crate::common::{Place, send};
 
 const LOCK: &str = ".fem-run-lock";
 
@@ -47,7 +46,7 @@ fn recovery_deletes_folders_of_killed_runs_and_keeps_running_ones() {
     killed.wait().unwrap();
     place.succeed(["case.toml", "--set", "model.ting={}", "--out", "out"]);
     assert_eq!(hidden(&place), of_living);
-    kill(Pid::from_raw(living.id() as i32), Signal::SIGINT).unwrap();
+    send(&living, Signal::SIGINT);
     assert_eq!(living.wait().unwrap().code(), Some(130));
     assert_eq!(place.list("."), ["case.toml", "living", "out"]);
     assert_eq!(place.json("living/summary.json")["complete"], false);

@@ -251,9 +251,6 @@ fn restart_without_a_file_starts_anew_with_a_message() {
 #[cfg(unix)]
 #[test]
 fn interrupted_run_restarts_to_the_same_result() {
-    use nix::sys::signal::{Signal, kill};
-    use nix::unistd::Pid;
-
     let place = Place::new();
     let size = ["--set", "mesh.contact_element_size='20 um'"];
     place.succeed(("case.toml --out whole --quiet", size));
@@ -261,7 +258,7 @@ fn interrupted_run_restarts_to_the_same_result() {
     while !place.path("out").join(RESTART_FILE).exists() {
         sleep(Duration::from_millis(1));
     }
-    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    crate::common::send(&child, nix::sys::signal::Signal::SIGINT);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let summary = place.json("out/summary.json");
     assert_eq!(summary["complete"], false);

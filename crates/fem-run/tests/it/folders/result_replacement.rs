@@ -161,8 +161,6 @@ fn every_command_keeps_results_of_other_inputs() {
 #[cfg(unix)]
 #[test]
 fn a_race_for_one_folder_is_not_lost_silently() {
-    use nix::sys::signal::{Signal, kill};
-    use nix::unistd::Pid;
     let place = Place::new();
     let endless = ["mesh.contact_element_size=6e-6", "time.step_factor=1e-2"];
     let mut slow = place.command(("case.toml --quiet --out out", set(&endless))).spawn().unwrap();
@@ -171,7 +169,7 @@ fn a_race_for_one_folder_is_not_lost_silently() {
         assert!(slow.try_wait().unwrap().is_none());
     }
     place.succeed((TING, "--quiet --out out"));
-    kill(Pid::from_raw(slow.id().cast_signed()), Signal::SIGINT).unwrap();
+    crate::common::send(&slow, nix::sys::signal::Signal::SIGINT);
     assert_eq!(slow.wait().unwrap().code(), Some(1));
     assert_eq!(place.list("."), ["case.toml", "out", "out.new"]);
 }

@@ -40,10 +40,10 @@ mod signals {
     use std::io::{BufRead, BufReader, Read};
     use std::process::{Child, Stdio};
 
-    use nix::sys::signal::{Signal, kill};
-    use nix::unistd::Pid;
+    use nix::sys::signal::Signal;
 
     use super::*;
+    use crate::common::send;
 
     /// A mesh so fine that the run would take hours.
     const ENDLESS: [&str; 4] =
@@ -67,7 +67,7 @@ mod signals {
         signals: &[Signal],
     ) -> serde_json::Value {
         for signal in signals {
-            kill(Pid::from_raw(child.id() as i32), *signal).unwrap();
+            send(&child, *signal);
         }
         let mut message = String::new();
         stderr.read_to_string(&mut message).unwrap();
@@ -128,7 +128,7 @@ mod signals {
         let mut text = String::new();
         stderr.read_line(&mut text).unwrap();
         assert!(text.contains("seconds at most"), "{text}");
-        kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+        send(&child, Signal::SIGINT);
         stderr.read_to_string(&mut text).unwrap();
         assert_eq!(child.wait().unwrap().code(), Some(130), "{text}");
         assert!(text.ends_with("error: interrupted; no result was written\n"), "{text}");

@@ -7,30 +7,12 @@ use crate::common::{CASE, Place};
 
 const ICE: &str = include_str!("../../../../../cases/ice_2cm.toml");
 const BRIDGES: &str = include_str!("../../../../../validation/data/bridges_ice.csv");
-const GLASS_POINT: &str = include_str!("../../../../../validation/data/paper_glass.csv");
 const TRIALS: &str = include_str!("../../../../../validation/data/cradle_trials.csv");
 
 fn ice() -> Place {
     let place = Place::with(ICE);
     place.write("ice.csv", BRIDGES);
     place
-}
-
-/// The published table of rms error over n, to two digits, from the shipped file.
-#[test]
-fn the_ice_table_is_reproduced() {
-    let place = ice();
-    for (n, rms) in
-        [("0.5", "0.084"), ("0.65", "0.040"), ("0.7", "0.033"), ("0.8", "0.036"), ("1.0", "0.075")]
-    {
-        let n = format!("n={n}");
-        let law = "fit case.toml --data ice.csv --law bordbar_hyppanen";
-        let ran = place.succeed((law, ["--free", "a", "--param", &n, "--out", "fit"]));
-        let numbers = place.json("fit/fit.json");
-        assert_eq!(format!("{:.3}", numbers["rms"].as_f64().unwrap()), rms, "{n}");
-        ran.prints("rms error: 0.0");
-        assert_eq!(place.list("fit"), ["fit.json", "fit.svg", "histories.svg", "residuals.csv"]);
-    }
 }
 
 /// The law of Bridges et al. in the library gives the fit of the shipped table; unknown names are answered.
@@ -84,20 +66,9 @@ fn both_parameters_with_profile_and_comparison() {
     // A second fit replaces the first; other files stay.
     place.write("runs/ice_fit/notes.txt", "mine");
     place.succeed("fit case.toml --data ice.csv --law kuwabara_kono --quiet");
-    assert!(place.list("runs/ice_fit").contains(&"notes.txt".to_string()));
+    let files = ["fit.json", "fit.svg", "histories.svg", "notes.txt", "residuals.csv"];
+    assert_eq!(place.list("runs/ice_fit"), files);
     assert_eq!(place.json("runs/ice_fit/fit.json")["law"], "kuwabara_kono");
-}
-
-#[test]
-fn one_point_fits_one_parameter_and_not_two() {
-    let place = Place::new();
-    place.write("glass.csv", GLASS_POINT);
-    let law = "fit case.toml --data glass.csv --law bordbar_hyppanen";
-    place.succeed((law, "--param n=1 --out one")).tells("as many data as parameters");
-    place
-        .fails(2, (law, "--free a,n --out two"))
-        .tells("1 measured value cannot determine 2 parameters (a, n)");
-    assert!(!place.path("two").exists());
 }
 
 #[test]
@@ -110,22 +81,9 @@ fn faults_of_data_and_options_are_pointed_at() {
     refused("speed_m_s,e\n1,0.9\n2,much\n", "", "bad.csv:3: e is \"much\", which is not a number");
     refused("speed_m_s,e\n1,0.9\n-2,0.8\n", "", "bad.csv:3: the approach speed is -2 m/s");
     refused("speed_m_s,e\n1,92\n", "", "bad.csv:2: the restitution is 92|restitution_percent");
-    refused("speed_m_s,e\n1,0.9,3\n", "", "bad.csv:2:");
-    refused(
-        "speed_m_s,e,uncertanty\n1,0.9,0.01\n",
-        "",
-        "bad.csv:1: unknown column uncertanty|did you mean `uncertainty`?",
-    );
-    refused("v_m_s,speed_m_s,e\n1,1,0.9\n", "", "mean the same");
     refused("speed_m_s\n1\n", "", "bad.csv:1: there is no column restitution; found are speed_m_s");
     refused("time_s,e\n1,0.9\n", "", "there is no column speed");
-    refused("speed_m_s,e\n", "", "there is no row");
     refused("speed_m_s,e,uncertainty\n1,0.9,0\n", "", "bad.csv:2: uncertainty is 0");
-    refused(
-        "speed,e\n1 kg,0.9\n",
-        "",
-        "bad.csv:2: speed is \"1 kg\", which is of another dimension",
-    );
     refused(
         "body.0.approach_speed,body.0.sphere.diameter,restitution\n1,0.01,0.9\n1,0.02,0.8\n",
         "",
@@ -144,6 +102,7 @@ fn faults_of_data_and_options_are_pointed_at() {
     refused(table, "--columns restitution=e_n", "there is no column e_n; found are u, cor");
     refused(table, "--columns restitution", "there is no `=`");
     let good = "speed_m_s,e\n1,0.9\n2,0.8\n3,0.7\n";
+    refused("speed_m_s,e\n1,0.9\n", "--free a,n", "1 measured value cannot determine 2 parameters");
     refused(good, "--free b", "bordbar_hyppanen has no parameter \"b\"|a, n");
     refused(good, "--param n", "there is no `=`");
     refused(good, "--param 'a=1 kg'", "of another dimension|a is in s");
@@ -155,43 +114,16 @@ fn faults_of_data_and_options_are_pointed_at() {
     refused("speed_m_s,e\n1,0.9\n1,0.91\n1,0.92\n", "--free a,n", "do not tell a and n apart");
 }
 
-/// The same data in different spellings give the same fit.
+/// β for 0.92 at 0.5 m/s is 2982 1/s with constant ν.
 #[test]
-fn units_and_sweep_columns_are_read() {
-    let place = Place::new();
-    let files = [
-        "speed_m_s,restitution\n0.1,0.95\n0.5,0.92\n",
-        "# a comment\nSpeed_cm_s, e\n10, 0.95\n50, 0.92\n",
-        "v,restitution_percent\n10 cm/s,95\n0.5 m/s,92\n",
-        "body.0.approach_speed,restitution,contact_time_s,complete\n0.1 m/s,0.95,1e-4,true\n0.5 m/s,\
-         0.92,6e-5,true\n0.7 m/s,,,false\n",
-    ];
-    let rms = files.map(|text| {
-        place.write("data.csv", text);
-        place.succeed("fit case.toml --data data.csv --law kuwabara_kono -q");
-        let numbers = place.json("runs/data_fit/fit.json");
-        assert_eq!(numbers["points"], 2);
-        numbers["rms"].as_f64().unwrap()
-    });
-    for value in rms {
-        // Rounding of units, amplified by the fit.
-        assert!((value / rms[0] - 1.0).abs() < 1e-6, "{rms:?}");
-    }
-}
-
-/// β for 0.92 at 0.5 m/s: 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus.
-#[test]
-fn invert_gives_the_published_relaxation_rates_of_glass() {
+fn invert_gives_the_published_relaxation_rate_of_glass() {
     let place = Place::new();
     place.succeed("invert case.toml --law ting --restitution 0.92").prints("2982");
-    let bulk = ["--set", "material.glass.relaxation.acts_on=\"shear\""];
-    let ting = ["invert", "case.toml", "--law", "ting", "--restitution", "0.92"];
-    place.succeed((ting, bulk)).prints("4173");
     place
         .succeed("invert case.toml --restitution 0.92")
         .prints("kuwabara_kono|tsuji|falcon|bordbar_hyppanen|hunt_crossley|ting");
     place
-        .fails(2, [&ting[..5], &["1.5"]].concat())
+        .fails(2, "invert case.toml --law ting --restitution 1.5")
         .tells("--restitution must be greater than 0 and less than 1");
     let law = "invert case.toml --restitution 0.3 --law hunt_crossley";
     place.fails(2, law).tells("no e gives a restitution of 0.3");
@@ -576,20 +508,6 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     place
         .fails(2, (&of_one.replace("--for drake", "--for abaqus"), all.1))
         .tells("lammps, liggghts");
-}
-
-/// Tables as people have them.
-#[test]
-fn fit_reads_common_tables() {
-    let place = Place::new();
-    let fit = "fit case.toml --law tsuji --data e.dat --out out --force";
-    let rows = "v_m_s  COR\n0,1  0,92\n  1   0,90\n";
-    place.write("e.dat", rows);
-    place.succeed((fit, "--columns restitution=COR")).prints("2 points");
-    let utf_16: Vec<u8> =
-        "\u{feff}v_m_s;COR\n0,1;0,92\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    std::fs::write(place.path("e.dat"), utf_16).unwrap();
-    place.succeed(fit).prints("1 point of");
 }
 
 /// Warnings about a result are also printed with --quiet.

@@ -5,7 +5,12 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
+#[cfg(unix)]
+use nix::sys::signal::Signal;
+
 use crate::common::Place;
+#[cfg(unix)]
+use crate::common::send;
 
 /// Three speeds and two relaxation weights, in all combinations.
 const SWEEP: &str = r#"case = "case.toml"
@@ -323,11 +328,9 @@ fn killed_sweep_resumes_with_the_members_left() {
 #[cfg(unix)]
 #[test]
 fn interrupted_sweep_keeps_its_members_and_explains_how_to_resume() {
-    use nix::sys::signal::{Signal, kill};
-    use nix::unistd::Pid;
     let place = place(LONG);
     let child = start_long(&place, "out");
-    kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGINT).unwrap();
+    send(&child, Signal::SIGINT);
     let ran: crate::common::Ran = child.wait_with_output().unwrap().into();
     assert_eq!(ran.code, Some(130), "{}", ran.stderr);
     ran.tells("of 12 members are done|the same command continues");
@@ -341,10 +344,7 @@ fn interrupted_sweep_keeps_its_members_and_explains_how_to_resume() {
 #[cfg(unix)]
 #[test]
 fn a_signal_ends_a_check_at_once() {
-    use nix::sys::signal::{Signal, kill};
-    use nix::unistd::Pid;
     use std::os::unix::process::ExitStatusExt;
-    use std::time::Duration;
     let many = "case = 'case.toml'\nmax_members = 1000000\n[vary]\nbody.0.approach_speed = { from = 0.1, to = 1.0, n = 1000 }\n\
                 start.gap = { from = 1e-6, to = 1e-5, n = 1000 }\n";
     let place = place(many);
@@ -352,7 +352,7 @@ fn a_signal_ends_a_check_at_once() {
     std::thread::sleep(Duration::from_secs(1));
     assert!(child.try_wait().unwrap().is_none());
     // Processes in the background of a script ignore SIGINT.
-    kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGTERM).unwrap();
+    send(&child, Signal::SIGTERM);
     assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGTERM as i32));
     assert!(!place.path("runs").exists());
 }

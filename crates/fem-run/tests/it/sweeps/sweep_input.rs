@@ -222,51 +222,43 @@ fn warnings_of_sweep_members_are_printed_once() {
     }
 }
 
-/// A step in place of the number of values, in another unit than the ends.
+/// A step in place of the number of values, in another unit than the ends; a range of temperatures, on scales with an offset, whose
+/// step is one of degrees; and ends in two units of one quantity, which are as written, the others in the unit of the last. A bare
+/// number is SI.
 #[test]
-fn a_range_may_have_a_step() {
-    let place = Place::new();
-    let range = "{ from = '50 cm/s', to = '2 m/s', step = '500 mm/s' }";
-    place.write("sweep.toml", &vary(&format!("'body.0.approach_speed' = {range}")));
-    place.succeed("sweep sweep.toml --quiet --set model.hertz={}");
-    let table = place.text("runs/sweep/sweep.csv");
-    let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
-    assert_eq!(texts, ["50 cm/s", "1 m/s", "1.5 m/s", "2 m/s"]);
-}
-
-/// Temperatures are on scales with an offset: a step is one of degrees.
-#[test]
-fn a_range_may_be_of_temperatures() {
-    let place = Place::new();
-    let range = "{ from = '-20 degC', to = '20 degC', step = '20 degC' }";
-    place.write("sweep.toml", &vary(&format!("scene.temperature = {range}")));
-    place.succeed((
-        "sweep sweep.toml --quiet --out runs/sweep --set model.ting={}",
-        ["--set", "body.1.material='lib:pvb'"],
-    ));
-    let table = place.text("runs/sweep/sweep.csv");
-    let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
-    assert_eq!(texts, ["-20 degC", "0 degC", "20 degC"]);
-    // The picture has the scale of the user.
-    let svg = place.text("runs/sweep/sweep.svg");
-    assert!(svg.contains(">temperature [°C]<") && svg.contains(">\u{2212}20<"));
-}
-
-/// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
-/// last; a bare number is SI.
-#[test]
-fn a_range_may_begin_in_another_unit() {
-    let place = Place::new();
-    for (to, last) in [("'2 m/s'", "2 m/s"), ("2", "2.0")] {
-        let range = format!("{{ from = '50 mm/s', to = {to}, n = 3, log = true }}");
-        place.write("sweep.toml", &vary(&format!("'body.0.approach_speed' = {range}")));
-        place.succeed("sweep sweep.toml --quiet --set model.hertz={}");
+fn ranges_have_the_units_of_their_ends() {
+    let (speed, temperature) = ("body.0.approach_speed", "scene.temperature");
+    for (key, range, expected) in [
+        (
+            speed,
+            "from = '50 cm/s', to = '2 m/s', step = '500 mm/s'",
+            &["50 cm/s", "1 m/s", "1.5 m/s", "2 m/s"][..],
+        ),
+        (
+            temperature,
+            "from = '-20 degC', to = '20 degC', step = '20 degC'",
+            &["-20 degC", "0 degC", "20 degC"],
+        ),
+        (speed, "from = '50 mm/s', to = '2 m/s', n = 3, log = true", &["50 mm/s", "2 m/s"]),
+        (speed, "from = '50 mm/s', to = 2, n = 3, log = true", &["50 mm/s", "2.0"]),
+    ] {
+        let place = Place::new();
+        place.write("sweep.toml", &vary(&format!("{key} = {{ {range} }}")));
+        let relaxing = "--set model.ting={} --set body.1.material='lib:pvb'";
+        place.succeed(("sweep sweep.toml --quiet --out runs/sweep", relaxing));
         let table = place.text("runs/sweep/sweep.csv");
-        let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
-        assert!(texts.len() == 3 && texts[0] == "50 mm/s" && texts[2] == last, "{texts:?}");
-        // The geometric mean: √(0.05 · 2) m/s.
-        let middle: f64 = texts[1].trim_end_matches(" m/s").parse().unwrap();
-        assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
+        let mut texts: Vec<_> =
+            table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+        if range.contains("log") {
+            // The geometric mean: √(0.05 · 2) m/s.
+            let middle: f64 = texts.remove(1).trim_end_matches(" m/s").parse().unwrap();
+            assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
+        }
+        assert_eq!(texts, expected);
+        // The picture has the scale of the user.
+        let svg = place.text("runs/sweep/sweep.svg");
+        let is_warm = svg.contains(">temperature [°C]<") && svg.contains(">\u{2212}20<");
+        assert_eq!(is_warm, key == temperature, "{key}");
     }
 }
 

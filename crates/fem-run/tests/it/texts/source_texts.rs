@@ -1,22 +1,15 @@
 //! Rules for all texts of the program, wherever they are in its sources.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// Returns the sources of a crate, without the tests in them.
-fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).expect("a folder of sources").flatten() {
-        let path = entry.path();
-        if path.is_dir() {
-            found.extend(sources(&path));
-        } else if path.extension().is_some_and(|end| end == "rs") {
-            let text = fs::read_to_string(&path).expect("a source");
-            let code = text.split("#[cfg(test)]").next().unwrap_or_default().to_string();
-            found.push((path, code));
-        }
-    }
-    found
+use crate::workspace_structure::{root, sources};
+
+/// Returns the sources of all crates with their paths, without the tests in them.
+fn crates() -> Vec<(PathBuf, String)> {
+    let is_product = |path: &PathBuf| path.to_string_lossy().contains("/src/");
+    let all = sources(root().join("crates")).into_iter().filter(|(path, _)| is_product(path));
+    let code = |text: String| text.split("#[cfg(test)]").next().unwrap_or_default().to_string();
+    all.map(|(path, text)| (path, code(text))).collect()
 }
 
 /// Returns formats of numbers like `2.79e-5 m`: an exponent before a unit that takes a prefix.
@@ -60,21 +53,14 @@ fn unrounded_fields(code: &str) -> Vec<&str> {
 fn no_error_shows_all_digits_of_a_number() {
     let example = "#[error(\"{a} {b:?} {c}\", c = number(*c, 5))]\nOne { a: &str, b: f64, c: f64 },\n#[error(\"{0}\")]\nTwo(f64)";
     assert_eq!(unrounded_fields(example), ["b", "0"]);
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("");
     let (mut n, mut faults) = (0, Vec::new());
-    for own in fs::read_dir(crates).expect("crates").flatten() {
-        if ["fem-case", "fem-material", "fem-contact", "fem-vtk"]
-            .iter()
-            .any(|echoes| own.file_name() == *echoes)
-        {
-            continue;
-        }
-        let sources = sources(&own.path().join("src")).into_iter();
-        for (path, code) in sources.filter(|it| !it.0.ends_with("estimate/parameter.rs")) {
+    let echoes =
+        ["fem-case/", "fem-material/", "fem-contact/", "fem-vtk/", "estimate/parameter.rs"];
+    for (path, code) in crates() {
+        let path = path.display().to_string();
+        if !echoes.iter().any(|echo| path.contains(echo)) {
             n += code.matches("#[error(").count();
-            faults.extend(
-                unrounded_fields(&code).iter().map(|it| format!("{}: {it}", path.display())),
-            );
+            faults.extend(unrounded_fields(&code).iter().map(|it| format!("{path}: {it}")));
         }
     }
     assert!(n > 100, "{n} errors");
@@ -90,17 +76,12 @@ fn no_text_has_an_exponent_before_a_unit() {
         ["{size:.2e}", "{:.2e}"]
     );
     assert!(exponents_before_units("{x:.1e} element updates, {name} m, {e} m").is_empty());
+    let crates = crates();
     let mut faults = Vec::new();
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("");
-    let mut n = 0;
-    for own in fs::read_dir(crates).expect("crates").flatten() {
-        for (path, code) in sources(&own.path().join("src")) {
-            n += 1;
-            for found in exponents_before_units(&code) {
-                faults.push(format!("{}: {found}", path.display()));
-            }
-        }
+    for (path, code) in &crates {
+        let found = exponents_before_units(code).into_iter();
+        faults.extend(found.map(|found| format!("{}: {found}", path.display())));
     }
-    assert!(n > 100, "{n} sources");
+    assert!(crates.len() > 100, "{} sources", crates.len());
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
