@@ -54,7 +54,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 32] = [
+pub const PICTURES: [Picture; 33] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -62,6 +62,7 @@ pub const PICTURES: [Picture; 32] = [
         "comparison.html",
         [1000, 1010],
     ),
+    figure("oblique.svg", &["sweep cases/sweep_angle.toml"], "runs/sweep_angle/sweep.svg"),
     figure("sweep.svg", &["sweep cases/sweep_speed.toml"], "runs/sweep_speed/sweep.svg"),
     figure("sweep-keys.svg", &["sweep cases/keys.toml"], "runs/keys/sweep.svg"),
     figure("metal-laws.svg", &["sweep cases/metal_laws.toml"], "runs/metal_laws/sweep.svg"),

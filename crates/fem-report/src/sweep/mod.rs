@@ -109,7 +109,8 @@ fn value_chart(
     let reference = || curves.iter().flat_map(|curve| &curve.reference);
     let x = own().map(|point| point.0).chain(reference().map(|point| point.0));
     let x = horizontal_axis(sweep, choice, x);
-    let x = if choice.x.is_counted { x.not_logarithmic() } else { x };
+    let is_linear = choice.x.is_counted || choice.x.unit == Some("°");
+    let x = if is_linear { x.not_logarithmic() } else { x };
     let x = if reference_name == LIMIT { x.logarithmic_if_positive() } else { x };
     let y = own().map(|point| point.1).chain(reference().map(|point| point.1));
     let y = QuantityAxis::fitting(column_words(column), column_unit(column), y);

@@ -7,7 +7,8 @@ use clap::ValueEnum;
 use fem_case::readable_name;
 use fem_report::report::{
     Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_dent,
-    contour_of_result, energy_chart, history_chart, loop_chart, pressure_chart, report_page,
+    contour_of_result, energy_chart, history_chart, loop_chart, oblique_chart, pressure_chart,
+    report_page,
 };
 use fem_report::section_view::mirrored;
 
@@ -127,6 +128,8 @@ pub enum Figure {
     Profile,
     /// Height and velocity over several contacts, with gravity
     Bounces,
+    /// Both contact forces and the sticking part of the contact over time, of an oblique impact
+    Oblique,
     /// Contact force over the approach; the area of the loop is the energy that is lost
     Loop,
 }
@@ -152,6 +155,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         Figure::Pressure => history_chart(&records, Quantity::Pressure),
         Figure::Energy => energy_chart(of_one("energy")?),
         Figure::Profile => pressure_chart(&records),
+        Figure::Oblique => oblique_chart(of_one("oblique")?),
         Figure::Loop => loop_chart(&records),
     };
     let svg = match figure {
@@ -165,7 +169,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let Some(svg) = svg else {
         return Err(Failure::bad_input("there is nothing to draw: the result lacks these data")
             .with_help("fields and profiles need [output] snapshots and a model with elements, bounces need \
-                        gravity, and a dent a body that flows"));
+                        gravity, oblique needs friction, and a dent a body that flows"));
     };
     let name = figure
         .to_possible_value()
