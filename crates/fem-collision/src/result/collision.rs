@@ -153,6 +153,8 @@ pub struct TangentialResult {
 pub struct TangentialErrors {
     /// By the numbers of springs and steps.
     pub discretisation: Option<f64>,
+    /// Change per relative change of the tangential stiffness, which grows with the contact radius: what an error of the radius does.
+    pub per_stiffness: f64,
     /// By neglected effects.
     pub model: Option<f64>,
     /// By the uncertainty of the coefficient of friction, if the case gives it.

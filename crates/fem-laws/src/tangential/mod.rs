@@ -102,6 +102,12 @@ impl TangentialContact {
         Self { size: Some(size), ..self }
     }
 
+    /// Returns the contact with a modulus that is larger by a share.
+    #[must_use]
+    pub fn stiffer_by(self, share: f64) -> Self {
+        Self { modulus: (1.0 + share) * self.modulus, ..self }
+    }
+
     /// Returns the contact with another coefficient of friction.
     #[must_use]
     pub fn with_friction(self, friction: f64) -> Self {

@@ -22,6 +22,9 @@ use crate::numerics::functions::exp;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 
+/// Number of intervals in which line loads of a mesh are kept between axis and edge.
+const KNOTS: usize = 64;
+
 /// The loads of all springs over a collision, at equal steps of time from first touch to the end of contact. A spring stands where the
 /// edge of the growing contact is at the end of each step, so that it is reached there and not within a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,17 +89,17 @@ impl NormalSprings {
         forces: &[f64],
         profiles: &[Vec<(f64, f64)>],
     ) -> Self {
-        let of = |profiles: &[Vec<(f64, f64)>], n_steps: usize| {
-            Self::of_mesh(contact_time, time_step, (forces, profiles), n_steps)
-        };
         let every_second = |profile: &Vec<(f64, f64)>| {
             let last = profile.len().saturating_sub(1);
             let kept = profile.iter().enumerate().filter(|(k, _)| k % 2 == 0 || *k == last);
             kept.map(|(_, pressure)| *pressure).collect()
         };
-        let halved: Vec<_> = profiles.iter().map(every_second).collect();
-        let coarse = Some(Box::new(of(&halved, Self::N_STEPS / 2)));
-        Self { coarse, ..of(profiles, Self::N_STEPS) }
+        let fewer: Vec<_> = profiles.iter().step_by(2).map(every_second).collect();
+        let half: Vec<_> = forces.iter().copied().step_by(2).collect();
+        let coarse =
+            Self::of_mesh(contact_time, 2.0 * time_step, (&half, &fewer), Self::N_STEPS / 2);
+        let fine = Self::of_mesh(contact_time, time_step, (forces, profiles), Self::N_STEPS);
+        Self { coarse: Some(Box::new(coarse)), ..fine }
     }
 
     fn of_mesh(
@@ -121,24 +124,24 @@ impl NormalSprings {
         let of = |values: &[f64]| -> Vec<f64> {
             (0..n_steps + 2).map(|step| between(values, place(step))).collect()
         };
-        let mut known: [(usize, Vec<f64>); 2] =
-            [(usize::MAX, Vec::new()), (usize::MAX, Vec::new())];
-        Self::new(own_step, &of(&radii), of(forces), |step, places, loads| {
+        // Line loads over the square of x/a, in which Hertz' are linear.
+        let shapes = profiles.iter().zip(&radii).map(|(profile, radius)| {
+            let at = |k: usize| (k as f64 / KNOTS as f64).sqrt() * radius;
+            (0..=KNOTS).map(|k| line_load(profile, at(k))).collect::<Vec<_>>()
+        });
+        let shapes: Vec<_> = shapes.collect();
+        let (edges, forces) = (of(&radii), of(forces));
+        Self::new(own_step, &edges, forces, |step, places, loads| {
             let (before, share) = place(step);
-            if known[1].0 == before {
-                known.swap(0, 1);
-            }
-            for (k, (own, of_step)) in known.iter_mut().enumerate() {
-                let wanted = (before + k).min(last);
-                if *own != wanted {
-                    let profile = &profiles[wanted];
-                    *of_step = places.iter().map(|place| line_load(profile, *place)).collect();
-                    *own = wanted;
-                }
-            }
-            for (spring, load) in loads.iter_mut().enumerate() {
-                let [(_, a), (_, b)] = &known;
-                *load = a[spring] + share * (b[spring] - a[spring]);
+            let (one, next) = (&shapes[before], &shapes[(before + 1).min(last)]);
+            for (place, load) in places.iter().zip(loads) {
+                let at = KNOTS as f64 * (place / edges[step]).powi(2);
+                let knot = at as usize;
+                let of = |shape: &[f64]| {
+                    shape[knot] + (at - knot as f64) * (shape[knot + 1] - shape[knot])
+                };
+                let is_within = at < KNOTS as f64;
+                *load = if is_within { (1.0 - share) * of(one) + share * of(next) } else { 0.0 };
             }
         })
     }

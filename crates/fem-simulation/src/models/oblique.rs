@@ -25,6 +25,9 @@ const INERTIA: f64 = 0.4;
 /// that between a/R of 0.005 and 0.1.
 const SECOND_ORDER: f64 = 0.05;
 
+/// Relative change of the stiffness by which its effect is found.
+const STIFFER: f64 = 0.01;
+
 /// Two bodies that move across the axis or spin.
 #[derive(Clone, Debug)]
 struct ObliqueBodies {
@@ -143,7 +146,11 @@ impl ObliqueBodies {
         let (velocities, spins) = self.after(impulse);
         let errors = match (&springs, &impact) {
             (Some(springs), Some(impact)) => self.errors(&collision, springs, impact, before),
-            _ => TangentialErrors { discretisation: Some(0.0), model: Some(0.0), input: None },
+            _ => TangentialErrors {
+                discretisation: Some(0.0),
+                model: Some(0.0),
+                ..TangentialErrors::default()
+            },
         };
         let result = TangentialResult {
             patch_velocity: [before, last.velocity],
@@ -222,6 +229,7 @@ impl ObliqueBodies {
         let of_friction = |to: f64| self.contact.clone().with_friction(to).impact(springs, before);
         TangentialErrors {
             discretisation: Some(self.contact.discretisation_error(springs, impact, before)),
+            per_stiffness: change(&self.contact.clone().stiffer_by(STIFFER)) / STIFFER,
             model,
             input: input.map(|it| {
                 let [low, high] = [friction - it.uncertainty, friction + it.uncertainty];

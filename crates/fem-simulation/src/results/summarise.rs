@@ -73,6 +73,7 @@ impl Summary {
                 tangential: tangential::parts(
                     collision,
                     uncertainty.of(QuantityOfInterest::Restitution),
+                    uncertainty.of(QuantityOfInterest::MaxContactRadius),
                 ),
             },
             tangential: tangential::quantities(simulation.case().scene(), collision),

@@ -28,20 +28,27 @@ pub(super) fn quantities(scene: &Scene, collision: &Collision) -> Tangential {
     }
 }
 
-/// Returns the error bars of the quantities, from that of the restitution.
-pub(super) fn parts(collision: &Collision, of_restitution: Parts) -> Option<TangentialParts> {
+/// Returns the error bars of the quantities, from those of the restitution and the contact radius.
+pub(super) fn parts(
+    collision: &Collision,
+    of_restitution: Parts,
+    of_radius: Parts,
+) -> Option<TangentialParts> {
     let result = collision.tangential.as_ref()?;
     let restitution = collision.restitution?;
     let [before, after] = result.patch_velocity;
     let speed = collision.approach.speed();
     let (away, errors) = (restitution * speed, &result.errors);
+    let radius = collision.max_contact_radius.unwrap_or(f64::INFINITY);
     // Of the tangential velocity per restitution.
     let slope = (after - before) / (1.0 + restitution);
     let bars = |of_velocity: &dyn Fn(f64, f64) -> f64| {
         let bar = |own: Option<f64>, of_restitution: Option<f64>| {
             Some(of_velocity(own?, of_restitution?).abs())
         };
-        let discretisation = bar(errors.discretisation, of_restitution.discretisation);
+        let by_radius = of_radius.discretisation.unwrap_or(0.0) / radius;
+        let own = errors.discretisation.map(|own| own + errors.per_stiffness * by_radius);
+        let discretisation = bar(own, of_restitution.discretisation);
         let model = bar(errors.model, of_restitution.model);
         let input = match (errors.input, of_restitution.input) {
             (None, None) => None,
