@@ -22,6 +22,9 @@ use crate::numerics::functions::exp;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 
+/// Pressure (Pa) at distances from the axis (m), from there outward.
+type Profile = Vec<(f64, f64)>;
+
 /// Number of intervals in which line loads of a mesh are kept between axis and edge.
 const KNOTS: usize = 64;
 
@@ -87,9 +90,9 @@ impl NormalSprings {
         contact_time: f64,
         time_step: f64,
         forces: &[f64],
-        profiles: &[Vec<(f64, f64)>],
+        profiles: &[Profile],
     ) -> Self {
-        let every_second = |profile: &Vec<(f64, f64)>| {
+        let every_second = |profile: &Profile| -> Profile {
             let last = profile.len().saturating_sub(1);
             let kept = profile.iter().enumerate().filter(|(k, _)| k % 2 == 0 || *k == last);
             kept.map(|(_, pressure)| *pressure).collect()
@@ -105,7 +108,7 @@ impl NormalSprings {
     fn of_mesh(
         contact_time: f64,
         time_step: f64,
-        (forces, profiles): (&[f64], &[Vec<(f64, f64)>]),
+        (forces, profiles): (&[f64], &[Profile]),
         n_steps: usize,
     ) -> Self {
         let radii: Vec<_> =

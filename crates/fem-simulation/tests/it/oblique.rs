@@ -100,7 +100,7 @@ fn condensed_bodies_agree_with_ting() {
         let bars = condensed.uncertainty.tangential.unwrap().tangential_restitution;
         let bar = bars.discretisation.unwrap() + bars.model.unwrap();
         let found = [&ting, &condensed].map(|it| it.tangential.tangential_restitution.unwrap());
-        assert!((found[0] - found[1]).abs() < bar && bar < 0.02, "{tolerance} {found:?} {bar}");
+        assert!((found[0] - found[1]).abs() < bar && bar < 0.04, "{tolerance} {found:?} {bar}");
     }
 }
 
