@@ -278,7 +278,7 @@ pub fn oblique_chart(result: &StoredResult) -> Option<Chart> {
     let (normal, across) = (column("contact_force_n"), column("tangential_force_n"));
     let sticking = column("stick_radius_over_contact_radius");
     let (from, to) = range_with_zero(normal.iter().chain(&across));
-    if across.iter().all(|point| !(point.1.abs() > 0.0)) {
+    if across.iter().all(|point| point.1 == 0.0 || point.1.is_nan()) {
         return None;
     }
     let y = QuantityAxis::linear("Contact force F", "N", to.max(-from));
