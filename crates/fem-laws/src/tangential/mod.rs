@@ -155,6 +155,8 @@ struct Sliding<'a> {
     normal: &'a NormalSprings,
     /// Factors of each term over a step: weight, decay, and the share of an even change that it keeps.
     terms: Vec<[f64; 3]>,
+    /// What a spring holds at most over its load, 1/Pa.
+    limit: f64,
     /// g∞ + Σ g_k of what is kept of a change in the step.
     stiffness: f64,
     /// What each spring holds over G* per length if it keeps its elongation over the step, m.
@@ -187,6 +189,7 @@ impl<'a> Sliding<'a> {
         Self {
             contact,
             normal,
+            limit: contact.friction / contact.modulus,
             stiffness,
             held: Vec::with_capacity(normal.places.len()),
             elongations: vec![0.0; normal.places.len()],
@@ -226,7 +229,7 @@ impl<'a> Sliding<'a> {
     /// Advances by a step. The displacement of the springs in it is found by Newton's method from that of the bodies.
     fn advance(&mut self, step: usize) {
         let (time_step, mass) = (self.normal.time_step, self.contact.mass);
-        self.hold();
+        self.hold(self.normal.at(step).len());
         let inertia = 0.25 * time_step * time_step / mass;
         let free = time_step * self.velocity - inertia * self.force;
         let (mut moved, mut sums) = (free, Sums::default());
@@ -263,10 +266,11 @@ impl<'a> Sliding<'a> {
     }
 
     /// Finds what each spring holds at the end of the step if it keeps its elongation.
-    fn hold(&mut self) {
+    fn hold(&mut self, n_reached: usize) {
         let equilibrium = self.contact.relaxation.equilibrium_weight();
         self.held.clear();
-        self.held.extend(self.elongations.iter().map(|elongation| equilibrium * elongation));
+        let reached = self.elongations[..n_reached].iter();
+        self.held.extend(reached.map(|elongation| equilibrium * elongation));
         for ([weight, decay, _], branch) in self.terms.iter().zip(&self.branches) {
             for (held, branch) in self.held.iter_mut().zip(branch) {
                 *held += weight * decay * branch;
@@ -276,7 +280,7 @@ impl<'a> Sliding<'a> {
 
     /// Returns what a spring holds over G* per length at the end of a step in which the patch moves, and whether it sticks.
     fn clipped(&self, spring: usize, load: f64, moved: f64) -> (f64, bool) {
-        let limit = self.contact.friction * load / self.contact.modulus;
+        let limit = self.limit * load;
         let free = self.held[spring] + self.stiffness * moved;
         (free.clamp(-limit, limit), free.abs() < limit)
     }
