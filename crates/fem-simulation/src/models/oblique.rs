@@ -267,7 +267,8 @@ fn check(scene: &Scene) -> Result<(), Rejection> {
     let bodies = scene.bodies();
     let law = match scene.model() {
         ModelChoice::Fem => {
-            return reject("model", "is not computed by model fem", "use model condensed or ting");
+            let message = "is not computed by model fem";
+            return reject("contact.friction", message, "use model condensed or ting");
         }
         ModelChoice::Law { law, .. } => Some(law),
         _ => None,
