@@ -45,7 +45,7 @@ pub struct Collector<'a> {
     pub members: &'a [Member],
     pub folder: &'a mut SweepFolder,
     pub numbers: &'a KeyNumbers,
-    /// What the figure shows; without it neither table nor figure is written.
+    /// The columns of the figure; without it neither table nor figure is written.
     pub choice: Option<&'a FigureChoice>,
 }
 
