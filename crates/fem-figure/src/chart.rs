@@ -4,10 +4,12 @@ use crate::clip::runs;
 use crate::curve::{Curve, LineStyle, Mark};
 use crate::style::COLOURS;
 
-/// An axis with its label, kind and range.
+/// An axis with its label, unit, kind and range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     pub(crate) label: String,
+    /// Number of the label's units per unit of the values.
+    scale: f64,
     pub(crate) is_logarithmic: bool,
     pub(crate) range: Option<(f64, f64)>,
 }
@@ -15,7 +17,13 @@ pub struct Axis {
 impl Axis {
     /// Creates a linear axis; the label names quantity and unit.
     pub fn new(label: impl Into<String>) -> Self {
-        Self { label: label.into(), is_logarithmic: false, range: None }
+        Self { label: label.into(), scale: 1.0, is_logarithmic: false, range: None }
+    }
+
+    /// Multiplies all values by the number of the label's units per unit of the values.
+    pub fn scaled_by(mut self, scale: f64) -> Self {
+        self.scale = scale;
+        self
     }
 
     /// Makes the axis logarithmic; points that are not positive are left out.
@@ -26,8 +34,13 @@ impl Axis {
 
     /// Sets the range of the axis, independent of the data.
     pub fn from_to(mut self, from: f64, to: f64) -> Self {
-        self.range = Some((from, to));
+        self.range = Some((self.scale * from, self.scale * to));
         self
+    }
+
+    /// Whether the axis is logarithmic.
+    pub fn is_logarithmic(&self) -> bool {
+        self.is_logarithmic
     }
 
     pub(crate) fn shows(&self, value: f64) -> bool {
@@ -92,7 +105,10 @@ impl Chart {
     }
 
     /// Adds a curve.
-    pub fn with(mut self, curve: Curve) -> Self {
+    pub fn with(mut self, mut curve: Curve) -> Self {
+        let (x, y) = (self.x.scale, self.y.scale);
+        curve.points.iter_mut().for_each(|point| *point = (x * point.0, y * point.1));
+        curve.errors.iter_mut().for_each(|error| *error *= y);
         self.curves.push(curve);
         self
     }
@@ -104,6 +120,8 @@ impl Chart {
         points: Vec<(f64, f64, f64)>,
         colour: &'static str,
     ) -> Self {
+        let (x, y) = (self.x.scale, self.y.scale);
+        let points = points.into_iter().map(|(at, from, to)| (x * at, y * from, y * to)).collect();
         self.bands.push(Band { label: label.into(), points, colour });
         self
     }

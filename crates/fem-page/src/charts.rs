@@ -1,8 +1,8 @@
 //! Charts of a collision over time, as pictures that a page restyles by their classes.
 
 use fem::{Account, HistoryRow};
-use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve, Mark};
+use fem_report::quantity_axis::quantity_axis;
 use serde::{Deserialize, Serialize};
 
 /// The legend entry of the reference.
@@ -33,17 +33,14 @@ impl Charts {
     }
 }
 
-/// Returns a unit that fits the largest of some numbers.
-fn unit(numbers: impl Iterator<Item = f64>, symbol: &str) -> Unit {
-    Unit::fitting(numbers.fold(0.0, |largest: f64, number| largest.max(number.abs())), symbol)
+/// Returns an axis in a unit that fits the largest of some numbers.
+fn axis(name: &str, symbol: &str, numbers: impl Iterator<Item = f64>) -> Axis {
+    let largest = numbers.fold(0.0, |largest: f64, number| largest.max(number.abs()));
+    quantity_axis(name, symbol, largest)
 }
 
-fn time_unit(rows: &[HistoryRow]) -> Unit {
-    unit(rows.iter().map(|row| row.time), "s")
-}
-
-fn axis(name: &str, unit: &Unit) -> Axis {
-    Axis::new(format!("{name} [{}]", unit.symbol()))
+fn time_axis(rows: &[HistoryRow]) -> Axis {
+    axis("time", "s", rows.iter().map(|row| row.time))
 }
 
 fn compared(
@@ -52,11 +49,8 @@ fn compared(
     (name, symbol): (&str, &str),
     get: impl Fn(&HistoryRow) -> f64,
 ) -> Option<String> {
-    let (time, own) = (time_unit(run), unit(run.iter().map(&get), symbol));
-    let points = |rows: &[HistoryRow]| {
-        rows.iter().map(|row| (time.scaled(row.time), own.scaled(get(row)))).collect()
-    };
-    let chart = Chart::new(axis("time", &time), axis(name, &own))
+    let points = |rows: &[HistoryRow]| rows.iter().map(|row| (row.time, get(row))).collect();
+    let chart = Chart::new(time_axis(run), axis(name, symbol, run.iter().map(&get)))
         .with(Curve::line("this run", points(run)))
         .with(Curve::dashed(HERTZ, points(hertz)));
     fem_figure::panel(&chart)
@@ -73,15 +67,12 @@ fn energy(run: &[HistoryRow], common: Option<f64>) -> Option<String> {
     let curves = energy_curves(run, common);
     let all = || curves.iter().flat_map(|curve| curve.energies.iter().flatten().copied());
     let largest = all().fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
-    let (time, own) = (time_unit(run), unit(all(), "J"));
-    let mut chart = Chart::new(axis("time", &time), axis("energy", &own));
+    let mut chart = Chart::new(time_axis(run), axis("energy", "J", all()));
     let is_seen = |curve: &&EnergyCurve| {
         curve.energies.iter().flatten().any(|energy| energy.abs() > MIN_ENERGY_SHARE * largest)
     };
     for curve in curves.iter().filter(is_seen) {
-        let point = |(row, energy): (&HistoryRow, &Option<f64>)| {
-            Some((time.scaled(row.time), own.scaled((*energy)?)))
-        };
+        let point = |(row, energy): (&HistoryRow, &Option<f64>)| Some((row.time, (*energy)?));
         let points = run.iter().zip(&curve.energies).filter_map(point).collect();
         chart = chart.with(Curve::line(curve.name.clone(), points).like_curve(curve.colour));
     }

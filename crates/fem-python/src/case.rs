@@ -37,7 +37,7 @@ impl Case {
 
     /// Returns the case as the input of a job.
     pub(crate) fn given(&self) -> JobInput {
-        JobInput { case: Some(self.case.clone()), name: self.name.clone(), table: None }
+        JobInput { case: Some(self.case.clone()), name: self.name.clone(), data: None }
     }
 }
 

@@ -2,9 +2,8 @@
 
 use std::ffi::OsString;
 
-use fem::measured::{Table, decode, is_of_library, library_table};
 use fem_case::library;
-use fem_command::{Failure, JobInput};
+use fem_command::JobInput;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -12,76 +11,19 @@ use serde_json::{Value, json};
 use crate::case::Case;
 use crate::failure::OrRaise;
 
-/// A table: its name and its CSV text in bytes.
-type Data = Option<(String, Vec<u8>)>;
-
-/// Runs a job without Python's lock and returns its numbers as JSON.
-fn done(
+/// Runs the job of a command such as `fit` without Python's lock, and returns its numbers as JSON; see `fem_command::numbers_of`.
+/// Data are a name and the bytes of a file.
+#[pyfunction]
+pub fn numbers_of(
     py: Python<'_>,
-    given: JobInput,
-    data: Data,
+    job: &str,
+    case: Option<PyRef<'_, Case>>,
+    data: Option<(String, Vec<u8>)>,
     options: Vec<String>,
-    job: fn(&JobInput, &[String]) -> Result<Value, Failure>,
 ) -> PyResult<String> {
-    let work = || -> Result<Value, Failure> {
-        let read = |(name, bytes): (String, Vec<u8>)| match is_of_library(&name) {
-            true => library_table(&name).map(|(table, _)| table),
-            false => Table::parse(&name, &decode(&bytes)),
-        };
-        let table = data.map(read).transpose()?;
-        job(&JobInput { table, ..given }, &options)
-    };
-    let numbers = py.detach(work).or_raise(py)?;
-    serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
-}
-
-macro_rules! jobs {
-    ($($(#[$doc:meta])+ $name:ident;)+) => {
-        $(
-            $(#[$doc])+
-            #[pyfunction]
-            pub fn $name(
-                py: Python<'_>,
-                case: PyRef<'_, Case>,
-                data: Data,
-                options: Vec<String>,
-            ) -> PyResult<String> {
-                done(py, case.given(), data, options, fem_command::$name)
-            }
-        )+
-    };
-}
-
-jobs! {
-    /// Runs `fem-run fit`.
-    fit;
-    /// Runs `fem-run invert`.
-    invert;
-    /// Runs `fem-run export`.
-    export;
-    /// Runs `fem-run calibrate`.
-    calibrate;
-}
-
-/// Runs `fem-run cradle`.
-#[pyfunction]
-pub fn cradle(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
-    done(py, JobInput::default(), data, options, fem_command::cradle)
-}
-
-/// Runs `fem-run measure`.
-#[pyfunction]
-pub fn measure(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
-    let (name, bytes) = data.unwrap_or_default();
-    let numbers = py.detach(|| fem_command::measure(&name, &bytes, &options)).or_raise(py)?;
-    serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
-}
-
-/// Runs `fem-run relaxation`.
-#[pyfunction]
-pub fn relaxation(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
-    let (name, bytes) = data.unwrap_or_default();
-    let numbers = py.detach(|| fem_command::relaxation(&name, &bytes, &options)).or_raise(py)?;
+    let given = case.map_or_else(JobInput::default, |case| case.given());
+    let given = JobInput { data, ..given };
+    let numbers = py.detach(|| fem_command::numbers_of(job, &given, &options)).or_raise(py)?;
     serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }
 

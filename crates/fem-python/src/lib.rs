@@ -23,10 +23,7 @@ mod _native {
     #[pymodule_export]
     use crate::case::Case;
     #[pymodule_export]
-    use crate::jobs::{
-        calibrate, cradle, export, fit, invert, material_toml, materials, measure, options,
-        relaxation, run_command,
-    };
+    use crate::jobs::{material_toml, materials, numbers_of, options, run_command};
     #[pymodule_export]
     use crate::outcome::Outcome;
     #[pymodule_export]

@@ -11,7 +11,7 @@ use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawFamily, LawImpact, ParameterRole};
 
-use crate::quantity_axis::{QuantityAxis, chart_axes};
+use crate::quantity_axis::{DECADE, fitting_axis, quantity_axis};
 
 /// Speeds of the overlap curves over the given speed.
 const SPEED_RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
@@ -41,11 +41,10 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let data = fitted.problem.points;
     let speeds = fitted.curve_speeds();
     let high = speeds.last().copied().unwrap_or(1.0);
-    let x = QuantityAxis::linear("approach speed", "m/s", high).logarithmic();
+    let x = quantity_axis("approach speed", "m/s", high).logarithmic();
     let curve = |model: &Model, fit: &Fit| -> Vec<(f64, f64)> {
         let restitutions = LawFit::curve((model, fit), &speeds);
-        let points = speeds.iter().zip(restitutions);
-        points.filter_map(|(&speed, e)| Some((x.scaled(speed), e?))).collect()
+        speeds.iter().zip(restitutions).filter_map(|(&speed, e)| Some((speed, e?))).collect()
     };
     let model = fitted.problem.model;
     let share = |rank: usize| -> String {
@@ -60,8 +59,8 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     };
     let band = speeds.iter().zip(fitted.band(&speeds));
     let band: Vec<(f64, f64, f64)> =
-        band.filter_map(|(&speed, ends)| ends.map(|(a, b)| (x.scaled(speed), a, b))).collect();
-    let mut chart = Chart::new(x.axis(), Axis::new("restitution e"));
+        band.filter_map(|(&speed, ends)| ends.map(|(a, b)| (speed, a, b))).collect();
+    let mut chart = Chart::new(x, Axis::new("restitution e"));
     if !band.is_empty() {
         let label = format!("{} % band of the fit", number(100.0 * fitted.confidence, 3));
         chart = chart.with_band(label, band, GREY);
@@ -76,7 +75,7 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
         let curve = Curve::dashed(label(rank, model, fit), curve(model, fit));
         chart = chart.with(curve.like_curve(rank + 1));
     }
-    let points = data.iter().map(|point| (x.scaled(point.speed), point.restitution)).collect();
+    let points = data.iter().map(|point| (point.speed, point.restitution)).collect();
     let errors = data.iter().map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
     let mut charts =
         vec![chart.with(Curve::points("data", points).with_errors(errors).like_curve(1))];
@@ -117,10 +116,9 @@ pub fn histories_figure(
     let elastic = LawImpact::new(model.pair(), hertz(model.pair())?).impact(speed)?;
     let damped = model.impact(values, speed)?;
     let name = &title(model.family());
-    let time = QuantityAxis::linear("time", "s", elastic.contact_time.unwrap_or(1.0));
+    let time = quantity_axis("time", "s", elastic.contact_time.unwrap_or(1.0));
     let series = |impact: &Impact, label: &str, colour, mark, y: &dyn Fn(f64) -> f64| {
-        let instants = impact.history.iter();
-        let points = instants.map(|now| (time.scaled(now.time), y(now.approach_rate)));
+        let points = impact.history.iter().map(|now| (now.time, y(now.approach_rate)));
         Curve::new(label, mark, points.collect()).coloured(colour)
     };
     // At first touch the striking body moves with v and the other one rests, as in the paper's figure.
@@ -128,11 +126,9 @@ pub fn histories_figure(
     let share = scene.bodies()[striking].material().map_or(0.0, |_| mass_share(scene, striking));
     let own = |rate: f64| speed - share * (speed - rate);
     let panel = |label: &str, y: &dyn Fn(f64) -> f64| {
-        let rate = QuantityAxis::linear(label, "m/s", speed);
-        let scaled = |value: f64| rate.scaled(y(value));
-        chart_axes(&time, &rate)
-            .with(series(&elastic, "elastic", GREY, Mark::Dashed, &scaled))
-            .with(series(&damped, name, COLOURS[0], Mark::Line, &scaled))
+        Chart::new(time.clone(), quantity_axis(label, "m/s", speed))
+            .with(series(&elastic, "elastic", GREY, Mark::Dashed, y))
+            .with(series(&damped, name, COLOURS[0], Mark::Line, y))
     };
     let at = show(speed, "m/s");
     let mut charts = vec![panel(&format!("approach rate at {at}"), &|rate| rate)];
@@ -141,7 +137,7 @@ pub fn histories_figure(
         let name = scene.bodies()[striking].name();
         charts.push(panel(&format!("velocity of {name} at {at}"), &own));
     }
-    charts.push(overlap_chart(model, values, speed, &time)?);
+    charts.push(overlap_chart(model, values, speed, time.clone())?);
     Ok(fem_figure::svg(&charts).unwrap_or_default())
 }
 
@@ -151,25 +147,19 @@ fn mass_share(scene: &Scene, k: usize) -> f64 {
     1.0 / (1.0 + mass(k) / mass(1 - k))
 }
 
-fn overlap_chart(
-    model: &Model,
-    values: &[f64],
-    speed: f64,
-    time: &QuantityAxis,
-) -> Result<Chart, LawError> {
+fn overlap_chart(model: &Model, values: &[f64], speed: f64, time: Axis) -> Result<Chart, LawError> {
     let impacts: Vec<(f64, Impact)> = SPEED_RATIOS
         .iter()
         .map(|ratio| Ok((ratio * speed, model.impact(values, ratio * speed)?)))
         .collect::<Result<_, LawError>>()?;
     let deepest = impacts.iter().map(|(_, impact)| impact.max_approach).fold(0.0, f64::max);
-    let overlap = QuantityAxis::linear("overlap", "m", deepest);
+    let overlap = quantity_axis("overlap", "m", deepest);
     let curves = impacts.iter().zip(&COLOURS[2..]).map(|((speed, impact), colour)| {
-        let instants = impact.history.iter();
-        let points = instants.map(|now| (time.scaled(now.time), overlap.scaled(now.approach)));
+        let points = impact.history.iter().map(|now| (now.time, now.approach));
         let label = format!("overlap at {}", show(*speed, "m/s"));
         Curve::line(label, points.collect()).coloured(*colour)
     });
-    Ok(curves.fold(chart_axes(time, &overlap), Chart::with))
+    Ok(curves.fold(Chart::new(time, overlap), Chart::with))
 }
 
 /// Intervals of a drawn curve of e or T over speed.
@@ -179,11 +169,11 @@ const N_DRAWN: usize = 60;
 pub fn export_figure(fitted: &DemExport) -> String {
     let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
     let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
-    let speed = QuantityAxis::linear("approach speed", "m/s", fastest).logarithmic();
+    let speed = quantity_axis("approach speed", "m/s", fastest).logarithmic();
     let slowest = curve.speeds().0;
     let step = (fastest / slowest).powf(1.0 / N_DRAWN as f64);
     let drawn = || (0..=N_DRAWN).map(|k| slowest * step.powi(k as i32));
-    let panel = |y: &QuantityAxis,
+    let panel = |y: Axis,
                  (is_measured, data): (bool, Vec<(f64, f64)>),
                  of_law: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {
         // The linear law covers the other law with a constant restitution.
@@ -192,33 +182,28 @@ pub fn export_figure(fitted: &DemExport) -> String {
             _ => Mark::Line,
         };
         let law = |(law, colour): (&FittedLaw, &'static str)| {
-            let points: Vec<(f64, f64)> =
-                drawn().filter_map(|speed| Some((speed, of_law(law, speed)?))).collect();
-            Curve::new(law.name, mark(law), speed.points(y, &points)).coloured(colour)
+            let points = drawn().filter_map(|speed| Some((speed, of_law(law, speed)?)));
+            Curve::new(law.name, mark(law), points.collect()).coloured(colour)
         };
         let colours = [0, 2, 3, 4, 5].map(|k| COLOURS[k]);
         let laws = fitted.laws.iter().zip(colours).map(law);
-        laws.fold(chart_axes(&speed, y), Chart::with).with(
-            Curve::points(
-                match (is_measured, curve.law) {
-                    (true, None) => "data",
-                    (true, Some(law)) => law.name(),
-                    (false, _) => "Hertz, in place of data",
-                },
-                speed.points(y, &data),
-            )
-            .like_curve(if is_measured { 1 } else { 6 }),
-        )
+        let (name, k) = match (is_measured, curve.law) {
+            (true, None) => ("data", 1),
+            (true, Some(law)) => (law.name(), 1),
+            (false, _) => ("Hertz, in place of data", 6),
+        };
+        let chart = laws.fold(Chart::new(speed.clone(), y), Chart::with);
+        chart.with(Curve::points(name, data).like_curve(k))
     };
     let points = || curve.points.iter();
     let e_data = points().map(|point| (point.speed, point.restitution)).collect();
     let t_data = points().filter_map(|point| Some((point.speed, point.contact_time?))).collect();
     let charts = [
-        panel(&QuantityAxis::linear("restitution e", "", 1.0), (true, e_data), &|law, speed| {
+        panel(Axis::new("restitution e"), (true, e_data), &|law, speed| {
             law.outcome(speed).map(|outcome| outcome.restitution)
         }),
         panel(
-            &QuantityAxis::linear("contact time T", "s", longest),
+            quantity_axis("contact time T", "s", longest),
             (!curve.has_hertz_times, t_data),
             &|law, speed| law.outcome(speed)?.contact_time,
         ),
@@ -250,52 +235,47 @@ fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
         Abscissa::Speed => ("m/s", "approach speed"),
         Abscissa::ContactTime => ("s", "elastic contact time"),
     };
-    let x = QuantityAxis::linear(name, symbol, curves.range.1).logarithmic();
-    let scaled = |curve: Vec<(f64, f64)>| -> Vec<(f64, f64)> {
-        curve.into_iter().map(|(at, e)| (x.scaled(at), e)).collect()
-    };
-    let (best, power) = (scaled(curves.best), curves.over.steepest_loss());
+    let x = quantity_axis(name, symbol, curves.range.1).logarithmic();
+    let (best, power) = (curves.best, curves.over.steepest_loss());
     let (middle, level) = best[best.len() / 2];
     let limit =
         |x: f64, sign: f64| (1.0 - (1.0 - level) * (x / middle).powf(sign * power)).max(0.0);
     let band = best.iter().map(|&(x, _)| (x, limit(x, 1.0), limit(x, -1.0))).collect();
     let errors = found.measured.data.points.iter();
     let errors = errors.map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
-    let mut chart = Chart::new(x.axis(), Axis::new("restitution e"));
+    let mut chart = Chart::new(x, Axis::new("restitution e"));
     if let Some(prior) = curves.prior {
-        let curve = Curve::dashed("measured relaxation alone", scaled(prior));
-        chart = chart.with(curve.like_curve(4));
+        chart = chart.with(Curve::dashed("measured relaxation alone", prior).like_curve(4));
     }
     Ok(chart
         .with_band("slopes of any Prony series", band, GREY)
-        .with(Curve::dashed("single Maxwell term", scaled(curves.maxwell)).like_curve(2))
+        .with(Curve::dashed("single Maxwell term", curves.maxwell).like_curve(2))
         .with(Curve::line("best fit", best).like_curve(0))
-        .with(Curve::points("data", scaled(curves.data)).with_errors(errors).like_curve(1)))
+        .with(Curve::points("data", curves.data).with_errors(errors).like_curve(1)))
 }
 
 fn weight_chart(found: &Calibration) -> Chart {
     let (first, last) = found.contact_times();
     let times = found.times.iter().copied().chain([first, last]);
-    let x = QuantityAxis::fitting("relaxation time", "s", times).logarithmic();
-    let mut chart = Chart::new(x.axis(), Axis::new("weight g").from_to(0.0, 1.0));
+    let x = fitting_axis("relaxation time", "s", times, DECADE).logarithmic();
+    let mut chart = Chart::new(x, Axis::new("weight g").from_to(0.0, 1.0));
     for time in [first, last] {
-        let line = vec![(x.scaled(time), 0.0), (x.scaled(time), 1.0)];
+        let line = vec![(time, 0.0), (time, 1.0)];
         chart = chart.with(Curve::dashed("contact times of the data", line).coloured(GREY));
     }
     let label = format!("{} % range, all others free", 100.0 * found.confidence);
     for (k, time) in found.times.iter().enumerate() {
         let range = found.weight_range(k);
-        let line = vec![(x.scaled(*time), range.low), (x.scaled(*time), range.high)];
+        let line = vec![(*time, range.low), (*time, range.high)];
         chart = chart.with(Curve::line(label.clone(), line).coloured(COLOURS[3]));
     }
     if let Some(parts) = &found.fit.parts {
         let points = found.times.iter().zip(&parts.weights);
-        let points = points.map(|(time, weight)| (x.scaled(*time), weight.value)).collect();
+        let points = points.map(|(time, weight)| (*time, weight.value)).collect();
         let errors = parts.weights.iter().map(|weight| weight.error).collect();
         let prior = Curve::points("measured relaxation", points).with_errors(errors);
         chart = chart.with(prior.like_curve(4));
     }
-    let weights = found.times.iter().zip(&found.fit.weights);
-    let weights = weights.map(|(time, weight)| (x.scaled(*time), *weight)).collect();
+    let weights = found.times.iter().copied().zip(found.fit.weights.iter().copied()).collect();
     chart.with(Curve::points("weight found", weights).like_curve(0))
 }

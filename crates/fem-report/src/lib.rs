@@ -30,5 +30,3 @@ pub mod relaxation_figure;
 pub mod report;
 pub mod section_view;
 pub mod sweep;
-
-pub use quantity_axis::{QuantityAxis, chart_axes};

@@ -1,111 +1,38 @@
-//! Chart axes of physical quantities, in a unit with the prefix that fits the values.
+//! Chart axes of physical quantities: values in SI, drawn in a unit with the prefix that fits them.
 
 use fem_case::engineering::Unit;
-use fem_figure::{Axis, Chart};
+use fem_figure::Axis;
 
 /// SI units that take a prefix on an axis; all others are written as they are.
 const PREFIXED: [&str; 6] = ["m", "m/s", "s", "N", "Pa", "J"];
 /// Positive values that span this ratio go on a logarithmic axis.
-const LOGARITHMIC_FROM: f64 = 10.0;
-
+pub(crate) const DECADE: f64 = 10.0;
 /// Positive values that span this ratio have the unit without a prefix.
 const MANY: f64 = 1e4;
 
-/// One quantity along an axis: its name, its unit and whether the axis is logarithmic.
-#[derive(Debug)]
-pub struct QuantityAxis {
-    name: String,
-    symbol: &'static str,
-    /// `None` for a quantity whose unit takes no prefix.
-    unit: Option<Unit>,
-    is_positive: bool,
-    is_logarithmic: bool,
-    range: Option<(f64, f64)>,
+/// Returns a linear axis `name [unit]` for values of this size; an empty symbol stands for no unit.
+pub fn quantity_axis(name: impl AsRef<str>, symbol: &str, largest: f64) -> Axis {
+    let name = name.as_ref();
+    if PREFIXED.contains(&symbol) {
+        let unit = Unit::fitting(largest, symbol);
+        return Axis::new(format!("{name} [{}]", unit.symbol())).scaled_by(unit.scaled(1.0));
+    }
+    Axis::new(if symbol.is_empty() { name.to_string() } else { format!("{name} [{symbol}]") })
 }
 
-impl QuantityAxis {
-    /// A linear axis for values of this size (SI); an empty symbol stands for no unit.
-    pub fn linear(name: impl Into<String>, symbol: &'static str, largest: f64) -> Self {
-        let unit = PREFIXED.contains(&symbol).then(|| Unit::fitting(largest, symbol));
-        let name = name.into();
-        Self { name, symbol, unit, is_positive: false, is_logarithmic: false, range: None }
-    }
-
-    /// An axis for these values (SI), logarithmic if they are positive and span a decade, and without a prefix if they span many.
-    pub fn fitting(
-        name: impl Into<String>,
-        symbol: &'static str,
-        values: impl Iterator<Item = f64>,
-    ) -> Self {
-        let (from, to) = range(values);
-        Self {
-            is_positive: from > 0.0,
-            is_logarithmic: from > 0.0 && to >= LOGARITHMIC_FROM * from,
-            ..Self::linear(
-                name,
-                symbol,
-                if to > MANY * from && from > 0.0 { 1.0 } else { to.abs().max(from.abs()) },
-            )
-        }
-    }
-
-    /// The same axis, logarithmic.
-    pub fn logarithmic(mut self) -> Self {
-        self.is_logarithmic = true;
-        self
-    }
-
-    /// The same axis, logarithmic if its values are positive.
-    pub fn logarithmic_if_positive(mut self) -> Self {
-        self.is_logarithmic |= self.is_positive;
-        self
-    }
-
-    /// The same axis, not logarithmic.
-    pub fn not_logarithmic(mut self) -> Self {
-        self.is_logarithmic = false;
-        self
-    }
-
-    /// The same axis from one value to another (SI).
-    pub fn from_to(mut self, from: f64, to: f64) -> Self {
-        self.range = Some((self.scaled(from), self.scaled(to)));
-        self
-    }
-
-    /// Whether the axis is logarithmic.
-    pub fn is_logarithmic(&self) -> bool {
-        self.is_logarithmic
-    }
-
-    /// Returns a value (SI) in the axis' unit.
-    pub fn scaled(&self, value: f64) -> f64 {
-        self.unit.as_ref().map_or(value, |unit| unit.scaled(value))
-    }
-
-    /// Returns points (x, y) in SI in the units of this axis and of a vertical one.
-    pub fn points(&self, y: &Self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-        points.iter().map(|point| (self.scaled(point.0), y.scaled(point.1))).collect()
-    }
-
-    /// Returns the axis for a chart, labelled `name [unit]`.
-    pub fn axis(&self) -> Axis {
-        let label = match self.unit.as_ref().map_or(self.symbol, Unit::symbol) {
-            "" => self.name.clone(),
-            symbol => format!("{} [{symbol}]", self.name),
-        };
-        let axis = Axis::new(label);
-        let axis = if self.is_logarithmic { axis.logarithmic() } else { axis };
-        match self.range {
-            Some((from, to)) => axis.from_to(from, to),
-            None => axis,
-        }
-    }
-}
-
-/// Returns an empty chart with these axes.
-pub fn chart_axes(x: &QuantityAxis, y: &QuantityAxis) -> Chart {
-    Chart::new(x.axis(), y.axis())
+/// Returns an axis for these values, without a prefix if they span many decades, and logarithmic if they are positive and span
+/// at least this ratio.
+pub(crate) fn fitting_axis(
+    name: impl AsRef<str>,
+    symbol: &str,
+    values: impl Iterator<Item = f64>,
+    logarithmic_from: f64,
+) -> Axis {
+    let (from, to) = range(values);
+    let has_prefix = !(from > 0.0 && to > MANY * from);
+    let largest = if has_prefix { to.abs().max(from.abs()) } else { 1.0 };
+    let axis = quantity_axis(name, symbol, largest);
+    if from > 0.0 && to >= logarithmic_from * from { axis.logarithmic() } else { axis }
 }
 
 /// Returns the smallest and the largest finite value; (∞, −∞) without any.

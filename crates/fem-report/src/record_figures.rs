@@ -6,7 +6,7 @@ use fem::records::{
 use fem_case::engineering::show;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
-use crate::quantity_axis::{QuantityAxis, chart_axes};
+use crate::quantity_axis::{DECADE, fitting_axis, quantity_axis};
 
 /// Most points of a drawn record.
 const MOST_POINTS: usize = 1500;
@@ -29,11 +29,11 @@ pub fn record_figure(record: &Record, rig: &Rig) -> String {
 /// Restitution over approach speed, with error bars of two standard uncertainties.
 fn restitution_chart(impacts: &[Impact]) -> Chart {
     let speeds = impacts.iter().map(|impact| impact.speed.value);
-    let x = QuantityAxis::fitting("approach speed", "m/s", speeds);
-    let points = impacts.iter().map(|it| (x.scaled(it.speed.value), it.restitution.value));
+    let x = fitting_axis("approach speed", "m/s", speeds, DECADE);
+    let points = impacts.iter().map(|it| (it.speed.value, it.restitution.value));
     let bars = impacts.iter().map(|it| 2.0 * it.restitution.uncertainty);
     let curve = Curve::points("restitution ± 2 u", points.collect()).with_errors(bars.collect());
-    Chart::new(x.axis(), Axis::new("restitution e")).with(curve.like_curve(0))
+    Chart::new(x, Axis::new("restitution e")).with(curve.like_curve(0))
 }
 
 /// Adds points with a name like the k-th curve, if there are any.
@@ -45,33 +45,27 @@ fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
     let instants = &bounces.instants.values;
     let gravity = rig.gravity().value;
     let end = instants.last().copied().unwrap_or(1.0);
-    let time = QuantityAxis::linear("time", "s", end);
+    let time = quantity_axis("time", "s", end);
     let lasts = |span: &FlightSpan| instants[span.to] - instants[span.from];
     let longest = bounces.spans.iter().map(lasts).fold(0.0, f64::max);
-    let height =
-        QuantityAxis::linear("height by flight time", "m", gravity * longest.powi(2) / 8.0);
-    let mut record = chart_axes(&time, &height);
+    let height = quantity_axis("height by flight time", "m", gravity * longest.powi(2) / 8.0);
+    let mut record = Chart::new(time.clone(), height);
     for span in &bounces.spans {
         let (start, duration) = (instants[span.from], lasts(span));
-        let (label, colour) = match span.n_flights {
-            1 => ("flight", COLOURS[0]),
-            _ => ("an instant is missing", GREY),
-        };
         let point = |k: usize| {
             let s = duration * k as f64 / FLIGHT_POINTS as f64;
-            let high = 0.5 * gravity * s * (duration - s);
-            (time.scaled(start + s), height.scaled(high))
+            (start + s, 0.5 * gravity * s * (duration - s))
         };
         let points = (0..=FLIGHT_POINTS).map(point).collect();
-        record = match span.n_flights {
-            1 => record.with(Curve::line(label, points).coloured(colour)),
-            _ => record.with(Curve::dashed(label, points).coloured(colour)),
-        };
+        record = record.with(match span.n_flights {
+            1 => Curve::line("flight", points).coloured(COLOURS[0]),
+            _ => Curve::dashed("an instant is missing", points).coloured(GREY),
+        });
     }
     let picked = |used: bool| -> Vec<(f64, f64)> {
         let is_used = |k: &usize| bounces.spans.iter().any(|span| [span.from, span.to].contains(k));
         let all = (0..instants.len()).filter(|k| is_used(k) == used);
-        all.map(|k| (time.scaled(instants[k]), 0.0)).collect()
+        all.map(|k| (instants[k], 0.0)).collect()
     };
     record = with_marks(record, "bounce", picked(true), 1);
     record = with_marks(record, "left out", picked(false), 3);
@@ -79,16 +73,14 @@ fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
     if let Some(scatter) = &bounces.scatter {
         let largest =
             scatter.residuals.iter().flatten().fold(0.0f64, |most, it| most.max(it.abs()));
-        let residual = QuantityAxis::linear("residual of flight time", "s", largest);
+        let residual = quantity_axis("residual of flight time", "s", largest);
         let points =
             bounces.spans.iter().zip(&scatter.residuals).filter_map(|(span, residual_s)| {
-                let middle = 0.5 * (instants[span.from] + instants[span.to]);
-                Some((time.scaled(middle), residual.scaled((*residual_s)?)))
+                Some((0.5 * (instants[span.from] + instants[span.to]), (*residual_s)?))
             });
         let points = Curve::points("residual", points.collect()).like_curve(2);
-        let zero = vec![(time.scaled(instants[0]), 0.0), (time.scaled(end), 0.0)];
-        let zero = Curve::dashed("", zero).coloured(GREY);
-        charts.push(chart_axes(&time, &residual).with(zero).with(points));
+        let zero = Curve::dashed("", vec![(instants[0], 0.0), (end, 0.0)]).coloured(GREY);
+        charts.push(Chart::new(time, residual).with(zero).with(points));
     }
     charts
 }
@@ -119,12 +111,12 @@ fn track_charts(track: &Track) -> Vec<Chart> {
     let (times, heights) = (&frames.times, &frames.heights);
     let start = times.first().copied().unwrap_or(0.0);
     let end = times.last().copied().unwrap_or(1.0);
-    let time = QuantityAxis::linear("time", "s", end.abs().max(start.abs()));
+    let time = quantity_axis("time", "s", end.abs().max(start.abs()));
     let largest = heights.iter().fold(0.0f64, |most, y| most.max(y.abs()));
-    let height = QuantityAxis::linear("height", "m", largest);
-    let point = |k: &usize| (time.scaled(times[*k]), height.scaled(heights[*k]));
-    let points = thinned(heights).iter().map(point).collect();
-    let mut record = chart_axes(&time, &height).with(Curve::points("frame", points).coloured(GREY));
+    let height = quantity_axis("height", "m", largest);
+    let points = thinned(heights).into_iter().map(|k| (times[k], heights[k])).collect();
+    let frames = Curve::points("frame", points).coloured(GREY);
+    let mut record = Chart::new(time.clone(), height).with(frames);
     let mut deviations = Vec::new();
     for flight in &track.flights {
         let (Some(first), Some(last)) = (flight.frames.first(), flight.frames.last()) else {
@@ -133,7 +125,7 @@ fn track_charts(track: &Track) -> Vec<Chart> {
         let point = |k: usize| {
             let share = k as f64 / FLIGHT_POINTS as f64;
             let t = times[*first] + share * (times[*last] - times[*first]);
-            (time.scaled(t), height.scaled(track.height(flight, t)))
+            (t, track.height(flight, t))
         };
         let points = (0..=FLIGHT_POINTS).map(point).collect();
         record = record.with(Curve::line("parabola", points).coloured(COLOURS[0]));
@@ -142,40 +134,38 @@ fn track_charts(track: &Track) -> Vec<Chart> {
     }
     let level = |impact: &Impact| {
         let near = times.partition_point(|t| *t < impact.time).min(heights.len() - 1);
-        (time.scaled(impact.time), height.scaled(heights[near]))
+        (impact.time, heights[near])
     };
     let picked = track.impacts.iter().map(level).collect();
     record = record.with(Curve::points("bounce", picked).like_curve(1));
-    let residual = QuantityAxis::linear("residual of frame", "m", 3.0 * track.noise);
+    let residual = quantity_axis("residual of frame", "m", 3.0 * track.noise);
     let values: Vec<f64> = deviations.iter().map(|it| it.1).collect();
-    let kept = thinned(&values).into_iter();
-    let kept = kept.map(|k| (time.scaled(deviations[k].0), residual.scaled(deviations[k].1)));
+    let kept = thinned(&values).into_iter().map(|k| deviations[k]);
     let points = Curve::points("residual", kept.collect()).like_curve(2);
-    vec![record, restitution_chart(&track.impacts), chart_axes(&time, &residual).with(points)]
+    vec![record, restitution_chart(&track.impacts), Chart::new(time, residual).with(points)]
 }
 
 fn force_charts(force: &ForceRecord) -> Vec<Chart> {
     let (times, forces) = (&force.samples.times, &force.samples.forces);
     let end = times.last().copied().unwrap_or(1.0);
-    let time = QuantityAxis::linear("time", "s", end.abs().max(times[0].abs()));
+    let time = quantity_axis("time", "s", end.abs().max(times[0].abs()));
     let largest = force.pulses.iter().map(|pulse| pulse.peak_force_n).fold(0.0, f64::max);
-    let newton = QuantityAxis::linear("force", "N", largest);
-    let point = |k: &usize| (time.scaled(times[*k]), newton.scaled(forces[*k]));
-    let points = thinned(forces).iter().map(point).collect();
+    let newton = quantity_axis("force", "N", largest);
+    let points = thinned(forces).into_iter().map(|k| (times[k], forces[k])).collect();
     let peak = |clipped: bool| -> Vec<(f64, f64)> {
         let pulses = force.pulses.iter().filter(|pulse| pulse.is_clipped == clipped);
         let top = |pulse: &Pulse| {
             let middle = 0.5 * pulse.baseline[1] + pulse.baseline[0];
-            (time.scaled(pulse.time_s), newton.scaled(pulse.peak_force_n + middle))
+            (pulse.time_s, pulse.peak_force_n + middle)
         };
         pulses.map(top).collect()
     };
-    let record = chart_axes(&time, &newton).with(Curve::line("", points).coloured(GREY));
+    let record = Chart::new(time, newton.clone()).with(Curve::line("", points).coloured(GREY));
     let record = with_marks(record, "pulse", peak(false), 1);
     let record = with_marks(record, "clipped", peak(true), 3);
     let longest = force.pulses.iter().take(MOST_PULSES).filter_map(Pulse::contact_time);
-    let contact = QuantityAxis::linear("time since touch", "s", longest.fold(0.0, f64::max));
-    let mut pulses = chart_axes(&contact, &newton);
+    let contact = quantity_axis("time since touch", "s", longest.fold(0.0, f64::max));
+    let mut pulses = Chart::new(contact, newton);
     for (k, pulse) in force.pulses.iter().take(MOST_PULSES).enumerate() {
         let [first, last] = pulse.samples;
         let values: Vec<f64> = (first..=last)
@@ -184,8 +174,7 @@ fn force_charts(force: &ForceRecord) -> Vec<Chart> {
                 forces[k] - pulse.baseline[0] - share * pulse.baseline[1]
             })
             .collect();
-        let point =
-            |k: usize| (contact.scaled(times[first + k] - pulse.time_s), newton.scaled(values[k]));
+        let point = |k: usize| (times[first + k] - pulse.time_s, values[k]);
         let points = thinned(&values).into_iter().map(point).collect();
         let label = format!("less baseline, {}", show(pulse.time_s, "s"));
         pulses = pulses.with(Curve::points_on_line(label, points).like_curve(k + 4));
@@ -197,11 +186,11 @@ fn force_charts(force: &ForceRecord) -> Vec<Chart> {
 fn sound_charts(sound: &Sound, rig: &Rig) -> Vec<Chart> {
     let signal = &sound.signal;
     let end = signal.time(signal.values.len());
-    let time = QuantityAxis::linear("time", "s", end.abs().max(signal.start.abs()));
-    let point = |k: usize| (time.scaled(signal.time(k)), signal.values[k]);
+    let time = quantity_axis("time", "s", end.abs().max(signal.start.abs()));
+    let point = |k: usize| (signal.time(k), signal.values[k]);
     let points = thinned(&signal.values).into_iter().map(point).collect();
-    let chart = Chart::new(time.axis(), Axis::new("signal"));
-    let picked = sound.bounces.instants.values.iter().map(|t| (time.scaled(*t), 0.0)).collect();
+    let chart = Chart::new(time, Axis::new("signal"));
+    let picked = sound.bounces.instants.values.iter().map(|t| (*t, 0.0)).collect();
     let chart = chart.with(Curve::line("", points).coloured(GREY));
     let mut charts = vec![with_marks(chart, "bounce", picked, 1)];
     charts.extend(bounce_charts(&sound.bounces, rig));

@@ -7,7 +7,7 @@ use fem::measured::{ModulusPoint, TestKind};
 use fem::relaxation::{FoundRelaxation, Superposition};
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
-use crate::quantity_axis::{QuantityAxis, chart_axes};
+use crate::quantity_axis::{DECADE, fitting_axis, quantity_axis};
 
 /// Points of a drawn curve per decade.
 const POINTS_PER_DECADE: f64 = 12.0;
@@ -24,13 +24,13 @@ fn position(found: &FoundRelaxation, at: f64) -> f64 {
     if found.table.kind == TestKind::Oscillation { at / TAU } else { at }
 }
 
-fn abscissa(found: &FoundRelaxation) -> QuantityAxis {
+fn abscissa(found: &FoundRelaxation) -> Axis {
     let points = found.points.iter().map(|point| position(found, point.at));
     let (name, symbol) = match found.table.kind {
         TestKind::Oscillation => ("frequency", "Hz"),
         TestKind::Relaxation => ("time", "s"),
     };
-    QuantityAxis::linear(name, symbol, points.fold(0.0, f64::max)).logarithmic()
+    quantity_axis(name, symbol, points.fold(0.0, f64::max)).logarithmic()
 }
 
 /// The storage or the loss modulus of a point, Pa.
@@ -53,39 +53,36 @@ fn moduli(found: &FoundRelaxation) -> Chart {
     let (from, to) = points
         .iter()
         .fold((f64::INFINITY, 0.0f64), |(from, to), point| (from.min(point.at), to.max(point.at)));
-    let x = abscissa(found);
     let largest = points.iter().map(|point| point.storage).fold(0.0, f64::max);
-    let y = QuantityAxis::linear("modulus", "Pa", largest).logarithmic();
-    let mut chart = chart_axes(&x, &y);
+    let y = quantity_axis("modulus", "Pa", largest).logarithmic();
+    let mut chart = Chart::new(abscissa(found), y);
     let n = ((to / from).log10() * POINTS_PER_DECADE).ceil().max(1.0) as usize;
     for (k, (name, part)) in parts(found).into_iter().enumerate() {
         let measured = points.iter().map(|point| (position(found, point.at), part(point)));
-        let measured: Vec<(f64, f64)> = measured.filter(|it| it.1 > 0.0).collect();
+        let measured = measured.filter(|it| it.1 > 0.0).collect();
         let fitted = (0..=n).map(|i| {
             let at = from * (to / from).powf(i as f64 / n as f64);
             (position(found, at), found.series.moduli(found.table.kind, at)[k])
         });
-        let fitted: Vec<(f64, f64)> = fitted.filter(|it| it.1 > 0.0).collect();
+        let fitted = fitted.filter(|it| it.1 > 0.0).collect();
         chart = chart
-            .with(Curve::points(name, x.points(&y, &measured)).coloured(COLOURS[k]))
-            .with(Curve::line("series", x.points(&y, &fitted)).coloured(COLOURS[k]));
+            .with(Curve::points(name, measured).coloured(COLOURS[k]))
+            .with(Curve::line("series", fitted).coloured(COLOURS[k]));
     }
     chart
 }
 
 fn residuals(found: &FoundRelaxation) -> Chart {
-    let x = abscissa(found);
-    let mut chart = Chart::new(x.axis(), Axis::new("residual [%]"));
+    let mut chart = Chart::new(abscissa(found), Axis::new("residual [%]"));
     for (k, (name, part)) in parts(found).into_iter().enumerate() {
         let off = found.points.iter().filter(|point| part(point) > 0.0).map(|point| {
             let fitted = found.series.moduli(found.table.kind, point.at)[k];
             let share = (part(point) - fitted) / part(point);
-            (x.scaled(position(found, point.at)), 100.0 * share)
+            (position(found, point.at), 100.0 * share)
         });
         chart = chart.with(Curve::points(name, off.collect()).coloured(COLOURS[k]));
     }
-    let ends = found.points.iter().map(|point| x.scaled(position(found, point.at)));
-    let zero = ends.map(|x| (x, 0.0)).collect();
+    let zero = found.points.iter().map(|point| (position(found, point.at), 0.0)).collect();
     chart.with(Curve::dashed("", zero).coloured(GREY))
 }
 
@@ -93,11 +90,11 @@ fn weights(found: &FoundRelaxation) -> Chart {
     let whole = found.series.instantaneous_modulus();
     let terms = &found.series.terms;
     let times = terms.iter().map(|term| term.relaxation_time);
-    let x = QuantityAxis::fitting("relaxation time", "s", times).logarithmic();
-    let points = terms.iter().map(|term| (x.scaled(term.relaxation_time), term.modulus / whole));
+    let x = fitting_axis("relaxation time", "s", times, DECADE).logarithmic();
+    let points = terms.iter().map(|term| (term.relaxation_time, term.modulus / whole));
     let bars = terms.iter().map(|term| 2.0 * term.uncertainty / whole).collect();
     let points = Curve::points("weight ± 2 u", points.collect()).with_errors(bars);
-    Chart::new(x.axis(), Axis::new("weight")).with(points.like_curve(2))
+    Chart::new(x, Axis::new("weight")).with(points.like_curve(2))
 }
 
 /// Shift factors over temperature with the laws that were fitted to them.

@@ -4,7 +4,7 @@
 //! passed in memory; messages and results call them by their names.
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser};
-use fem::measured::Table;
+use fem::measured::{Table, decode, is_of_library, library_table};
 use fem::results::Summary;
 use fem_case::Case;
 use fem_collision::Collision;
@@ -21,8 +21,8 @@ pub struct JobInput {
     pub case: Option<Case>,
     /// The name of the case in messages.
     pub name: String,
-    /// Measured data points.
-    pub table: Option<Table>,
+    /// Measured data: their name in messages, and the bytes of their file.
+    pub data: Option<(String, Vec<u8>)>,
 }
 
 /// The command line of one job.
@@ -30,20 +30,6 @@ pub struct JobInput {
 struct Line<A: Args> {
     #[command(flatten)]
     arguments: A,
-}
-
-/// Parses the options of a job after the words `before`.
-fn parsed<A: Args>(job: &'static str, before: &[&str], options: &[String]) -> Result<A, Failure> {
-    let words = before.iter().map(ToString::to_string).chain(options.iter().cloned());
-    let words = std::iter::once(job.to_string()).chain(words);
-    let line = Line::<A>::command().disable_help_flag(true).try_get_matches_from(words);
-    let line = line.and_then(|matches| Line::<A>::from_arg_matches(&matches));
-    line.map(|line| line.arguments).map_err(|error| {
-        let text = error.to_string();
-        let text = text.trim_start_matches("error: ");
-        let end = text.find("\n\nUsage:").or(text.find("\n\nFor more")).unwrap_or(text.len());
-        Failure::bad_input(text[..end].trim_end())
-    })
 }
 
 /// Returns the options of the jobs by job and name, for front ends that declare them: whether an option is a flag, and
@@ -85,81 +71,71 @@ pub(crate) fn value_of(numbers: &impl Serialize) -> Result<Value, Failure> {
 }
 
 impl JobInput {
+    /// Parses the options of a job after the names of its case and data.
+    fn parsed<A: Args>(&self, options: &[String]) -> Result<A, Failure> {
+        let command = Line::<A>::command().disable_help_flag(true);
+        let has_data = command.get_arguments().any(|option| option.get_long() == Some("data"));
+        let data = self.data.iter().flat_map(|(name, _)| {
+            has_data.then(|| "--data".to_string()).into_iter().chain([name.clone()])
+        });
+        let words = self.case.iter().map(|_| self.name.clone()).chain(data);
+        let words = std::iter::once("fem-run".to_string()).chain(words);
+        let line = command.try_get_matches_from(words.chain(options.iter().cloned()));
+        let line = line.and_then(|matches| Line::<A>::from_arg_matches(&matches));
+        line.map(|line| line.arguments).map_err(|error| {
+            let text = error.to_string();
+            let text = text.trim_start_matches("error: ");
+            let end = text.find("\n\nUsage:").or(text.find("\n\nFor more")).unwrap_or(text.len());
+            Failure::bad_input(text[..end].trim_end())
+        })
+    }
+
     fn case(&self) -> Result<&Case, Failure> {
         self.case.as_ref().ok_or_else(|| Failure::bad_input("a case is missing"))
     }
 
-    fn table(&self) -> Result<&Table, Failure> {
-        self.table.as_ref().ok_or_else(|| Failure::bad_input("data are missing"))
+    fn bytes(&self) -> &[u8] {
+        self.data.as_ref().map_or(&[], |(_, bytes)| bytes)
     }
 
-    /// Returns the name of the data as an option.
-    fn data(&self) -> Vec<&str> {
-        self.table.as_ref().map_or(Vec::new(), |table| vec!["--data", table.name()])
+    fn table(&self) -> Result<Option<Table>, Failure> {
+        let read = |(name, bytes): &(String, Vec<u8>)| match is_of_library(name) {
+            true => library_table(name).map(|(table, _)| table),
+            false => Table::parse(name, &decode(bytes)),
+        };
+        Ok(self.data.as_ref().map(read).transpose()?)
+    }
+
+    fn needed_table(&self) -> Result<Table, Failure> {
+        self.table()?.ok_or_else(|| Failure::bad_input("data are missing"))
     }
 }
 
-/// Runs `fem-run fit`.
+/// Returns the numbers of a job by the name of its command, with its options: the keys of its JSON file, and the content of files that
+/// others use. `calibrate` has `relaxation_toml`, the table to paste into a case, and so has `relaxation`, with `material_toml`; `export`
+/// has the snippets in `texts`; `measure` and `relaxation` have the picture in `svg`; and `cradle` has one object per trial, in a list if
+/// there are data.
 ///
 /// # Errors
 /// Options, data or a case that the command rejects, with its messages.
-pub fn fit(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
-    let before = [&[input.name.as_str()][..], &input.data()].concat();
-    commands::laws::fit::numbers(&parsed("fit", &before, options)?, input.case()?, input.table()?)
-}
-
-/// Runs `fem-run invert`.
-///
-/// # Errors
-/// The same as those of [`fit`].
-pub fn invert(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
-    commands::laws::invert::numbers(&parsed("invert", &[&input.name], options)?, input.case()?)
-}
-
-/// Runs `fem-run export`; `texts` contains the snippets.
-///
-/// # Errors
-/// The same as those of [`fit`].
-pub fn export(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
-    let before = [&[input.name.as_str()][..], &input.data()].concat();
-    let arguments = parsed("export", &before, options)?;
-    commands::laws::export::numbers(&arguments, input.case()?, input.table.as_ref())
-}
-
-/// Runs `fem-run calibrate`; `relaxation_toml` is the table to paste into a case.
-///
-/// # Errors
-/// The same as those of [`fit`].
-pub fn calibrate(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
-    let before = [&[input.name.as_str()][..], &input.data()].concat();
-    let arguments = parsed("calibrate", &before, options)?;
-    commands::laws::calibrate::numbers(&arguments, input.case()?, input.table()?)
-}
-
-/// Runs `fem-run cradle` and returns one object per trial, in a list if there is a table.
-///
-/// # Errors
-/// The same as those of [`fit`].
-pub fn cradle(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
-    let arguments = parsed("cradle", &input.data(), options)?;
-    commands::laws::cradle::numbers(&arguments, input.table.as_ref())
-}
-
-/// Runs `fem-run measure` on the bytes of a record; messages refer to it by `name`. The key `svg` is the picture.
-///
-/// # Errors
-/// Options or a record that the command rejects, with its messages.
-pub fn measure(name: &str, bytes: &[u8], options: &[String]) -> Result<Value, Failure> {
-    commands::measure::numbers(&parsed("measure", &[name], options)?, bytes)
-}
-
-/// Runs `fem-run relaxation` on the bytes of a table of moduli; messages refer to it by `name`. The key `svg` is the picture,
-/// `relaxation_toml` and `material_toml` are the tables to paste into a case.
-///
-/// # Errors
-/// Options or a table that the command rejects, with its messages.
-pub fn relaxation(name: &str, bytes: &[u8], options: &[String]) -> Result<Value, Failure> {
-    commands::relaxation::numbers(&parsed("relaxation", &[name], options)?, bytes)
+pub fn numbers_of(job: &str, input: &JobInput, options: &[String]) -> Result<Value, Failure> {
+    use commands::laws::{calibrate, cradle, export, fit, invert};
+    use commands::{measure, relaxation};
+    match job {
+        "calibrate" => {
+            let arguments = input.parsed(options)?;
+            calibrate::numbers(&arguments, input.case()?, &input.needed_table()?)
+        }
+        "cradle" => cradle::numbers(&input.parsed(options)?, input.table()?.as_ref()),
+        "export" => {
+            export::numbers(&input.parsed(options)?, input.case()?, input.table()?.as_ref())
+        }
+        "fit" => fit::numbers(&input.parsed(options)?, input.case()?, &input.needed_table()?),
+        "invert" => invert::numbers(&input.parsed(options)?, input.case()?),
+        "measure" => measure::numbers(&input.parsed(options)?, input.bytes()),
+        "relaxation" => relaxation::numbers(&input.parsed(options)?, input.bytes()),
+        _ => Err(Failure::bad_input(format!("there is no job {job}"))),
+    }
 }
 
 /// Runs `fem-run check --resolved` and returns the resolved case with comments on the expected run.

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The program in `bin` consists of one call of [`run`]. Other front ends, such as Python, use [`run`] for the
-//! command, and the functions of `jobs` ([`fit`] and others) for what a command computes before it writes files. The
+//! command, and the functions of `jobs` ([`numbers_of`] and others) for what a command computes before it writes files. The
 //! program of the claims, `fem-validate`, is a job of its own ([`run_job`]) with the same folders, progress and text.
 //!
 //! stdout carries the result, stderr everything else. The exit status is 0 (done), 1 (the run failed), 2 (bad
@@ -33,10 +33,7 @@ use std::time::Instant;
 
 pub use arguments::case::parse_count;
 pub use commands::sweep::thread_pool;
-pub use jobs::{
-    JobInput, calibrate, check, cradle, export, fit, invert, material, measure, options,
-    relaxation, stopped,
-};
+pub use jobs::{JobInput, check, material, numbers_of, options, stopped};
 pub use progress::ItemProgress;
 pub use progress::interrupt::Interrupt;
 pub use progress::stopwatch::{Stopwatch, Timed};

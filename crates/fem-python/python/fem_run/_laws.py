@@ -183,7 +183,7 @@ def fit(
     Raises:
         InputError: the options or the data are invalid.
     """
-    return Fit(_found(_native.fit(_native_of(case), _data(data), _words(locals()))))
+    return Fit(_found(_native.numbers_of("fit", _native_of(case), _data(data), _words(locals()))))
 
 
 def invert(
@@ -213,7 +213,7 @@ def invert(
         this restitution too (else None), and ``contact_time_s``, SI, and ``unsolved``: laws with the reason. A ``yield_strength`` is at the strain rate of the contact: if a material has ``flow.rate``, its
         ``strength_at_reference_rate_pa`` is the key ``flow.yield_strength`` of the case (else None).
     """
-    return _found(_native.invert(_native_of(case), None, _words(locals())))
+    return _found(_native.numbers_of("invert", _native_of(case), None, _words(locals())))
 
 
 def export(
@@ -250,7 +250,7 @@ def export(
     """
     words = _words({**locals(), "fit": None})
     if fit is None:
-        return _found(_native.export(_native_of(case), _data(data), words))
+        return _found(_native.numbers_of("export", _native_of(case), _data(data), words))
     with tempfile.TemporaryDirectory() as folder:
         if isinstance(fit, Mapping):
             path = os.path.join(folder, "fit.json")
@@ -258,7 +258,7 @@ def export(
                 json.dump(fit, file)
         else:
             path = os.fspath(fit)
-        return _found(_native.export(_native_of(case), _data(data), [*words, f"--fit={path}"]))
+        return _found(_native.numbers_of("export", _native_of(case), _data(data), [*words, f"--fit={path}"]))
 
 
 def calibrate(
@@ -299,7 +299,7 @@ def calibrate(
     Returns:
         The keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case; ``plot()`` draws them.
     """
-    return Calibration(_found(_native.calibrate(_native_of(case), _data(data), _words(locals()))))
+    return Calibration(_found(_native.numbers_of("calibrate", _native_of(case), _data(data), _words(locals()))))
 
 
 def cradle(
@@ -331,7 +331,7 @@ def cradle(
     Returns:
         Speed, restitution and velocities with their uncertainties, SI; for data, columns with one row per trial.
     """
-    found = _found(_native.cradle(_data(data), _words(locals())))
+    found = _found(_native.numbers_of("cradle", None, _data(data), _words(locals())))
     if isinstance(found, dict):
         return found
     names = found[0] if found else {}
@@ -417,7 +417,7 @@ def measure(
     Raises:
         InputError: the options are invalid, or the record does not support a restitution.
     """
-    return Measurement(_found(_native.measure(_data({} if data is None else data), _words(locals()))))
+    return Measurement(_found(_native.numbers_of("measure", None, _data({} if data is None else data), _words(locals()))))
 
 
 def check(case: Case) -> str:
@@ -558,4 +558,4 @@ def relaxation(
     Raises:
         InputError: the options are invalid, or the data determine no relaxation.
     """
-    return Relaxation(_found(_native.relaxation(_data({} if data is None else data), _words(locals()))))
+    return Relaxation(_found(_native.numbers_of("relaxation", None, _data({} if data is None else data), _words(locals()))))

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::stored_result::{Columns, StoredResult};
 use crate::answer::relative_motion_energy;
-use crate::quantity_axis::{QuantityAxis, chart_axes};
+use crate::quantity_axis::quantity_axis;
 
 /// Returns a chart of each dent and a line of its sizes.
 pub fn dent_charts(result: &StoredResult) -> Vec<(Option<Chart>, String)> {
@@ -30,17 +30,13 @@ fn chart(dent: &Value, profiles: &Columns) -> Option<Chart> {
         after.iter().zip(&before).map(|(after, before)| after - before).collect();
     let known = || changes.iter().copied().filter(|y| y.is_finite());
     let (low, high) = known().fold((0.0f64, 0.0f64), |(a, b), y| (a.min(y), b.max(y)));
-    let x = QuantityAxis::linear("distance from the axis r", "m", last);
+    let x = quantity_axis("distance from the axis r", "m", last);
     let margin = 0.05 * (high - low);
-    let y = QuantityAxis::linear(
-        format!("Displacement of the surface of {}", name(dent)),
-        "m",
-        high.max(-low),
-    )
-    .from_to(low - margin, high + margin);
-    let points: Vec<(f64, f64)> = radii.iter().copied().zip(changes).collect();
-    let curve = Curve::line("left by the collision", x.points(&y, &points));
-    Some(chart_axes(&x, &y).with(curve.like_curve(0)))
+    let y = format!("Displacement of the surface of {}", name(dent));
+    let y = quantity_axis(y, "m", high.max(-low)).from_to(low - margin, high + margin);
+    let points = radii.into_iter().zip(changes).collect();
+    let curve = Curve::line("left by the collision", points);
+    Some(Chart::new(x, y).with(curve.like_curve(0)))
 }
 
 /// "Of the energy of relative motion, 44 % …": where the energy went that the dents took.

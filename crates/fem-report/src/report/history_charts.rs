@@ -1,11 +1,11 @@
 //! Charts over time: one result next to Hertz' curves, or several results over each other.
 
 use fem_case::engineering::show;
-use fem_figure::{Chart, Curve, GREY};
+use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::hertz_curves::{HertzCurves, HertzInstant};
 use super::stored_result::{ContactSnapshot, StoredResult};
-use crate::quantity_axis::{QuantityAxis, chart_axes, range};
+use crate::quantity_axis::{quantity_axis, range};
 
 /// Largest number of pressure profiles of one result, so that they can be distinguished.
 const MAX_PROFILES: usize = 4;
@@ -57,7 +57,7 @@ impl Quantity {
 
 /// The time axis of a chart: from first touch to a little after the last contact.
 struct TimeAxis {
-    axis: QuantityAxis,
+    axis: Axis,
     end: f64,
 }
 
@@ -77,7 +77,7 @@ impl TimeAxis {
             true => (1.0 + BEYOND) * hertz.clamp(own, MAX_OF_HERTZ * own),
             false => hertz,
         };
-        let axis = QuantityAxis::linear("time since first touch t", "s", end).from_to(0.0, end);
+        let axis = quantity_axis("time since first touch t", "s", end).from_to(0.0, end);
         Self { axis, end }
     }
 
@@ -99,22 +99,25 @@ fn range_with_zero<'a>(points: impl IntoIterator<Item = &'a (f64, f64)>) -> (f64
     (from.min(0.0), to.max(0.0))
 }
 
-/// Returns the vertical axis for computed values in this range (SI), and the label of Hertz' curve. If
-/// Hertz' curve goes far beyond the computed values, the axis ends before it and the label says how far it
-/// goes.
-fn vertical_axis(
-    (name, symbol): (&str, &'static str),
+/// Returns a chart over time of computed curves in this range (SI), with Hertz' curve dashed. If that goes far beyond the
+/// computed values, the axis ends before it and the label says how far it goes.
+fn beside_hertz(
+    time: Axis,
+    (name, symbol): (&str, &str),
     (from, to): (f64, f64),
-    hertz: &[(f64, f64)],
-    hertz_name: &str,
-) -> (QuantityAxis, String) {
-    let axis = QuantityAxis::linear(name, symbol, to.max(-from));
-    let largest = range_with_zero(hertz).1;
-    if largest <= MAX_OVER_DATA * to {
-        return (axis, hertz_name.to_string());
-    }
-    let label = format!("{hertz_name}, up to {}", show(largest, symbol));
-    (axis.from_to(MAX_OVER_DATA * from, MAX_OVER_DATA * to), label)
+    curves: impl Iterator<Item = Curve>,
+    (hertz_name, hertz): (&str, Vec<(f64, f64)>),
+) -> Chart {
+    let axis = quantity_axis(name, symbol, to.max(-from));
+    let largest = range_with_zero(&hertz).1;
+    let (axis, label) = match largest <= MAX_OVER_DATA * to {
+        true => (axis, hertz_name.to_string()),
+        false => (
+            axis.from_to(MAX_OVER_DATA * from, MAX_OVER_DATA * to),
+            format!("{hertz_name}, up to {}", show(largest, symbol)),
+        ),
+    };
+    with_hertz(curves.fold(Chart::new(time, axis), Chart::with), hertz, label)
 }
 
 fn with_hertz(chart: Chart, points: Vec<(f64, f64)>, label: String) -> Chart {
@@ -147,12 +150,13 @@ pub fn bounce_charts(result: &StoredResult) -> Vec<Chart> {
     let speeds = result.body_names().into_iter();
     let speeds = speeds.map(|name| (name.clone(), column(&format!("velocity_{name}_m_s"))));
     let end = times().last().unwrap_or(1.0);
-    let chart = |name: &str, unit: &'static str, curves: Vec<(String, Vec<(f64, f64)>)>| {
+    let chart = |name: &str, unit: &str, curves: Vec<(String, Vec<(f64, f64)>)>| {
         let (from, to) = range_with_zero(curves.iter().flat_map(|(_, points)| points));
-        let time = QuantityAxis::linear("time t", "s", end);
-        let y = QuantityAxis::linear(name, unit, to.max(-from));
-        curves.iter().enumerate().fold(chart_axes(&time, &y), |chart, (k, (name, points))| {
-            chart.with(Curve::line(name.clone(), time.points(&y, points)).like_curve(k))
+        let time = quantity_axis("time t", "s", end);
+        let chart = Chart::new(time, quantity_axis(name, unit, to.max(-from)));
+        let curves = curves.into_iter().enumerate();
+        curves.fold(chart, |chart, (k, (name, points))| {
+            chart.with(Curve::line(name, points).like_curve(k))
         })
     };
     let speeds: Vec<_> = speeds.collect();
@@ -208,13 +212,9 @@ pub fn loop_chart(results: &[StoredResult]) -> Option<Chart> {
     if !(deepest > 0.0 && largest > 0.0) {
         return None;
     }
-    let x = QuantityAxis::linear("approach δ", "m", deepest);
-    let y = QuantityAxis::linear("Contact force F", "N", largest);
-    let named = results.iter().zip(&curves).enumerate();
-    Some(named.fold(chart_axes(&x, &y), |chart, (k, (result, points))| {
-        let label = if results.len() == 1 { "this run" } else { &result.name };
-        chart.with(Curve::line(label, x.points(&y, points)).like_curve(k))
-    }))
+    let x = quantity_axis("approach δ", "m", deepest);
+    let y = quantity_axis("Contact force F", "N", largest);
+    Some(lines(results, curves).fold(Chart::new(x, y), Chart::with))
 }
 
 /// Returns the chart of a quantity over time; `None` if no result has it.
@@ -231,20 +231,24 @@ pub fn history_chart(results: &[StoredResult], quantity: Quantity) -> Option<Cha
         let history = hertz.history();
         history.iter().map(|now| (now.time, quantity.of_hertz(hertz, now))).collect()
     });
-    let (y, hertz_name) = vertical_axis((name, unit), range, &hertz_points, "Hertz");
-    let mut chart = chart_axes(&time.axis, &y);
-    for (k, (result, points)) in results.iter().zip(&curves).enumerate() {
+    let dots = |result: &StoredResult| {
+        let start = result.first_touch();
+        let at = |time: f64| (time - start, result.history.at(column, time));
+        let times = drawn_contacts(result).into_iter().map(|contact| contact.time);
+        let dots = times.map(at).filter(|(_, value)| value.is_finite()).collect();
+        Curve::points("", dots).like_curve(0)
+    };
+    let only = if let [only] = results { Some(dots(only)) } else { None };
+    let curves = lines(results, curves).chain(only);
+    Some(beside_hertz(time.axis, (name, unit), range, curves, ("Hertz", hertz_points)))
+}
+
+/// Returns a named line of each result.
+fn lines(results: &[StoredResult], curves: Vec<Vec<(f64, f64)>>) -> impl Iterator<Item = Curve> {
+    results.iter().zip(curves).enumerate().map(|(k, (result, points))| {
         let label = if results.len() == 1 { "this run" } else { &result.name };
-        chart = chart.with(Curve::line(label, time.axis.points(&y, points)).like_curve(k));
-        if results.len() == 1 {
-            let start = result.first_touch();
-            let at = |time: f64| (time - start, result.history.at(column, time));
-            let times = drawn_contacts(result).into_iter().map(|contact| contact.time);
-            let dots: Vec<_> = times.map(at).filter(|(_, value)| value.is_finite()).collect();
-            chart = chart.with(Curve::points("", time.axis.points(&y, &dots)).like_curve(k));
-        }
-    }
-    Some(with_hertz(chart, time.axis.points(&y, &hertz_points), hertz_name))
+        Curve::line(label, points).like_curve(k)
+    })
 }
 
 /// Returns the chart of the force over Hertz' peak force, over the time over Hertz' contact time; `None` if Hertz' results
@@ -253,9 +257,8 @@ pub fn normalised_chart(results: &[StoredResult]) -> Option<Chart> {
     if common_hertz(results).is_some() {
         return None;
     }
-    let x = QuantityAxis::linear("time over Hertz' contact time t / T_H", "", 1.0);
-    let y = QuantityAxis::linear("Force over Hertz' peak force F / F_H", "", 1.0);
-    let mut chart = chart_axes(&x, &y);
+    let x = Axis::new("time over Hertz' contact time t / T_H");
+    let mut chart = Chart::new(x, Axis::new("Force over Hertz' peak force F / F_H"));
     let mut hertz_points = Vec::new();
     for (k, result) in results.iter().enumerate() {
         let own = TimeAxis::of(std::slice::from_ref(result), None);
@@ -278,19 +281,18 @@ pub fn oblique_chart(result: &StoredResult) -> Option<Chart> {
     let (normal, across) = (column("contact_force_n"), column("tangential_force_n"));
     let sticking = column("stick_radius_over_contact_radius");
     let (from, to) = range_with_zero(normal.iter().chain(&across));
-    if across.iter().all(|point| point.1 == 0.0 || point.1.is_nan()) {
+    if !across.iter().any(|point| point.1.abs() > 0.0) {
         return None;
     }
-    let y = QuantityAxis::linear("Contact force F", "N", to.max(-from));
+    let y = quantity_axis("Contact force F", "N", to.max(-from));
     let largest = range_with_zero(&normal).1;
     let known = sticking.into_iter().filter(|point| point.1.is_finite());
-    let sticking: Vec<_> = known.map(|(time, share)| (time, share * largest)).collect();
-    let line = |points: &[(f64, f64)]| time.axis.points(&y, points);
-    let chart = chart_axes(&time.axis, &y)
-        .with(Curve::line("normal", line(&normal)).like_curve(0))
-        .with(Curve::line("tangential", line(&across)).like_curve(1));
+    let sticking = known.map(|(time, share)| (time, share * largest)).collect();
+    let chart = Chart::new(time.axis, y)
+        .with(Curve::line("normal", normal).like_curve(0))
+        .with(Curve::line("tangential", across).like_curve(1));
     let label = "stick radius / contact radius, of the largest force";
-    Some(chart.with(Curve::dashed(label, line(&sticking)).coloured(GREY)))
+    Some(chart.with(Curve::dashed(label, sticking).coloured(GREY)))
 }
 
 /// Returns the chart of the energies of a result over time; `None` if its history has none.
@@ -308,25 +310,23 @@ pub fn energy_chart(result: &StoredResult) -> Option<Chart> {
     let hertz_points: Vec<(f64, f64)> = hertz.map_or(Vec::new(), |hertz| {
         hertz.history().iter().map(|now| (now.time, now.energy)).collect()
     });
-    let (y, hertz_name) =
-        vertical_axis(("Energy E", "J"), (from, to), &hertz_points, "Hertz' strain energy");
-    let mut chart = chart_axes(&time.axis, &y);
     let is_visible = |points: &[(f64, f64)]| {
         let (least, most) = range_with_zero(points);
         let n_known = points.iter().filter(|point| point.1.is_finite()).count();
         // An energy that a model computes only at the end has no curve.
         most.max(-least) > FAINT * to.max(-from) && 2 * n_known > points.len()
     };
-    let visible = accounts.iter().filter(|(_, points)| is_visible(points));
-    for (k, (name, points)) in visible.enumerate() {
+    let visible = accounts.into_iter().filter(|(_, points)| is_visible(points));
+    let curves = visible.enumerate().map(|(k, (name, points))| {
         let label = match name.trim_end_matches("_j") {
             "viscous_dissipation" => "dissipated".to_string(),
             "contact" => "penalty springs".to_string(),
             other => other.replace('_', " "),
         };
-        chart = chart.with(Curve::line(label, time.axis.points(&y, points)).like_curve(k));
-    }
-    Some(with_hertz(chart, time.axis.points(&y, &hertz_points), hertz_name))
+        Curve::line(label, points).like_curve(k)
+    });
+    let hertz = ("Hertz' strain energy", hertz_points);
+    Some(beside_hertz(time.axis, ("Energy E", "J"), (from, to), curves, hertz))
 }
 
 /// Returns the contacts that are drawn: all if there are few, and else those nearest to half the largest

@@ -1,11 +1,11 @@
 //! The measured restitutions of the library beside the result, over the approach speed.
 
 use fem_case::engineering::show;
-use fem_figure::{Chart, Curve};
+use fem_figure::{Axis, Chart, Curve};
 use serde_json::Value;
 
 use super::stored_result::StoredResult;
-use crate::quantity_axis::{QuantityAxis, chart_axes};
+use crate::quantity_axis::{DECADE, fitting_axis};
 
 /// Returns the chart, and one line per measurement with its conditions and its source. `None` without a measurement.
 pub fn measured_chart(result: &StoredResult) -> Option<(Chart, Vec<String>)> {
@@ -19,20 +19,16 @@ pub fn measured_chart(result: &StoredResult) -> Option<(Chart, Vec<String>)> {
     if measured.is_empty() {
         return None;
     }
-    let x = QuantityAxis::fitting("approach speed v", "m/s", speeds);
-    let y = QuantityAxis::linear("Restitution e", "", 1.0).from_to(0.0, 1.05);
-    let mut chart = chart_axes(&x, &y);
-    for (k, (entry, points)) in measured.iter().zip(&curves).enumerate() {
-        let curve = Curve::points_on_line(text(entry, "name"), x.points(&y, points));
-        let curve = match entry.get("scatter").and_then(Value::as_f64) {
-            Some(scatter) => curve.with_errors(vec![scatter; points.len()]),
-            None => curve,
-        };
+    let x = fitting_axis("approach speed v", "m/s", speeds, DECADE);
+    let mut chart = Chart::new(x, Axis::new("Restitution e").from_to(0.0, 1.05));
+    for (k, (entry, points)) in measured.iter().zip(curves).enumerate() {
+        let scatter = entry.get("scatter").and_then(Value::as_f64);
+        let errors = scatter.map_or(Vec::new(), |scatter| vec![scatter; points.len()]);
+        let curve = Curve::points_on_line(text(entry, "name"), points).with_errors(errors);
         chart = chart.with(curve.like_curve(k + 1));
     }
     // Drawn last, since it may lie on a measured point.
-    let this = Curve::points("this result", x.points(&y, &[(speed, restitution)]));
-    chart = chart.with(this.like_curve(0));
+    chart = chart.with(Curve::points("this result", vec![(speed, restitution)]).like_curve(0));
     Some((chart, measured.iter().map(|entry| conditions(entry, speed)).collect()))
 }
 

@@ -8,7 +8,7 @@ use fem_figure::{Chart, Curve};
 use super::hertz_curves::HertzCurves;
 use super::history_charts::drawn_contacts;
 use super::stored_result::{ContactSnapshot, StoredResult};
-use crate::quantity_axis::{QuantityAxis, chart_axes};
+use crate::quantity_axis::quantity_axis;
 
 /// End of the pressure axis over the largest computed pressure; Hertz' curves may go beyond.
 const MAX_OVER_DATA: f64 = 1.2;
@@ -24,10 +24,9 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     if !(reach > 0.0 && peak > 0.0) {
         return None;
     }
-    let x = QuantityAxis::linear("distance from the axis r", "m", reach);
-    let y =
-        QuantityAxis::linear("Contact pressure p", "Pa", peak).from_to(0.0, MAX_OVER_DATA * peak);
-    let mut chart = chart_axes(&x, &y);
+    let x = quantity_axis("distance from the axis r", "m", reach);
+    let y = quantity_axis("Contact pressure p", "Pa", peak).from_to(0.0, MAX_OVER_DATA * peak);
+    let mut chart = Chart::new(x, y);
     let mut curves = Vec::new();
     for (k, result) in results.iter().enumerate() {
         let time = Unit::fitting(result.last_touch() - result.first_touch(), "s").with_digits(3);
@@ -44,10 +43,9 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     }
     let mut hertz_profiles: Vec<(usize, Vec<(f64, f64)>)> = Vec::new();
     for (k, result, contact, label) in curves {
-        chart = chart.with(Curve::line(label, x.points(&y, &contact.pressure)).like_curve(k));
+        chart = chart.with(Curve::line(label, contact.pressure.clone()).like_curve(k));
         if results.len() == 1 {
-            let nodes = x.points(&y, &contact.at_nodes);
-            chart = chart.with(Curve::points("", nodes).like_curve(k));
+            chart = chart.with(Curve::points("", contact.at_nodes.clone()).like_curve(k));
         }
         let force = result.history.at("contact_force_n", contact.time);
         if let Some(hertz) = HertzCurves::of(result).filter(|_| force > 0.0) {
@@ -69,7 +67,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     }
     // Each profile has the colour of the computed curve.
     for (k, points) in hertz_profiles {
-        chart = chart.with(Curve::dashed(&name, x.points(&y, &points)).like_curve(k));
+        chart = chart.with(Curve::dashed(&name, points).like_curve(k));
     }
     Some(chart)
 }

@@ -6,7 +6,6 @@ use fem::sweep::column_words;
 use fem_figure::{Axis, Chart, Curve as Line, GREY};
 
 use super::curves::SweepCurve;
-use crate::quantity_axis::QuantityAxis;
 
 /// Smaller errors are rounding and noise; they are drawn here.
 const MIN_DRAWN_ERROR: f64 = 1e-6;
@@ -111,7 +110,7 @@ pub fn convergence_chart(
     resolution: ResolutionKey,
     column: &str,
     converging: &[Option<ConvergingCurve>],
-    x: &QuantityAxis,
+    x: Axis,
     coloured: &dyn Fn(Line, usize) -> Line,
 ) -> Chart {
     let all = || converging.iter().flatten();
@@ -128,20 +127,17 @@ pub fn convergence_chart(
     };
     let largest = largest.max(MIN_RATIO * smallest);
     let y_axis = Axis::new(label).logarithmic().from_to(smallest / 1.5, largest * 1.5);
-    let mut chart = Chart::new(x.axis(), y_axis).titled(title(&words, converging));
-    let placed = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-        points.iter().map(|(value, error)| (x.scaled(*value), *error)).collect()
-    };
+    let mut chart = Chart::new(x, y_axis).titled(title(&words, converging));
     for (k, one) in converging.iter().enumerate() {
         let Some(one) = one else { continue };
-        chart = chart.with(coloured(Line::points("", placed(&one.errors)), k));
-        chart = chart.with(coloured(Line::dashed("", placed(&one.order_line(resolution))), k));
+        chart = chart.with(coloured(Line::points("", one.errors.clone()), k));
+        chart = chart.with(coloured(Line::dashed("", one.order_line(resolution)), k));
     }
     let known = all().map(|one| one.found.uncertainty / one.scale).fold(0.0, f64::max);
     let ends = all().flat_map(|one| one.places.iter().copied());
     let (from, to) = ends.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
     if known > smallest && known < largest && from < to {
-        let line = placed(&[(from, known), (to, known)]);
+        let line = vec![(from, known), (to, known)];
         chart = chart.with(Line::line("uncertainty of the limit", line).coloured(GREY));
     }
     if all().any(|one| one.found.order.is_some()) {

@@ -10,9 +10,9 @@ mod labels;
 
 use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
-use fem_figure::{COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
+use fem_figure::{Axis, COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
 
-use crate::quantity_axis::{QuantityAxis, chart_axes, range};
+use crate::quantity_axis::{DECADE, fitting_axis, range};
 use convergence::{ConvergingCurve, ResolutionKey, convergence_chart};
 use curves::{SweepCurve, curves, label};
 use labels::{plain, role, role_of_all};
@@ -69,10 +69,10 @@ pub fn sweep_figure(
         let value = value_chart(sweep, choice, column, (&curves, reference), room);
         let errors = converging.map(|(resolution, converging)| {
             let x = curves.iter().flat_map(|curve| curve.points.iter().map(|point| point.0));
-            let x = horizontal_axis(sweep, choice, x).logarithmic_if_positive();
+            let x = horizontal_axis(sweep, choice, x, 1.0);
             let colours = CurveColours::of(sweep, choice, &curves);
             let coloured = |line: Line, k: usize| colours.on(line, k);
-            convergence_chart(resolution, column, &converging, &x, &coloured)
+            convergence_chart(resolution, column, &converging, x, &coloured)
         });
         [Some(value), errors]
     });
@@ -93,8 +93,10 @@ fn horizontal_axis(
     sweep: &Sweep,
     choice: &FigureChoice,
     values: impl Iterator<Item = f64>,
-) -> QuantityAxis {
-    QuantityAxis::fitting(horizontal_label(sweep, choice), choice.x.unit.unwrap_or(""), values)
+    logarithmic_from: f64,
+) -> Axis {
+    let (name, unit) = (horizontal_label(sweep, choice), choice.x.unit.unwrap_or(""));
+    fitting_axis(name, unit, values, logarithmic_from)
 }
 
 /// Returns the chart of a column: its curves, and their references under `reference_name`.
@@ -108,12 +110,14 @@ fn value_chart(
     let own = || curves.iter().flat_map(|curve| &curve.points);
     let reference = || curves.iter().flat_map(|curve| &curve.reference);
     let x = own().map(|point| point.0).chain(reference().map(|point| point.0));
-    let x = horizontal_axis(sweep, choice, x);
-    let is_linear = choice.x.is_counted || choice.x.unit == Some("°");
-    let x = if is_linear { x.not_logarithmic() } else { x };
-    let x = if reference_name == LIMIT { x.logarithmic_if_positive() } else { x };
+    let logarithmic_from = match reference_name {
+        LIMIT => 1.0,
+        _ if choice.x.is_counted || choice.x.unit == Some("°") => f64::INFINITY,
+        _ => DECADE,
+    };
+    let x = horizontal_axis(sweep, choice, x, logarithmic_from);
     let y = own().map(|point| point.1).chain(reference().map(|point| point.1));
-    let y = QuantityAxis::fitting(column_words(column), column_unit(column), y);
+    let y = fitting_axis(column_words(column), column_unit(column), y, DECADE);
     // Error bars of many curves would cover each other.
     let has_errors = curves.len() <= COLOURS.len();
     let bar = |(_, value, error): &(f64, f64, f64)| {
@@ -127,13 +131,13 @@ fn value_chart(
         [(value - bar).max(floor(value)), value + bar]
     });
     let shown = shown_range(ends, reference().map(|point| point.1));
-    let errors = |curve: &SweepCurve| curve.points.iter().map(|at| y.scaled(bar(at))).collect();
+    let errors = |curve: &SweepCurve| curve.points.iter().map(bar).collect();
     let errors: Vec<Vec<f64>> = curves.iter().map(errors).collect();
     let y = match shown.filter(|_| !y.is_logarithmic()) {
         Some((from, to)) => y.from_to(from, to),
         None => y,
     };
-    let mut chart = chart_axes(&x, &y);
+    let mut chart = Chart::new(x, y);
     // Counted values are not connected by lines.
     let reference_line = if choice.x.is_counted { Line::points } else { Line::dashed };
     let colours = CurveColours::of(sweep, choice, curves);
@@ -153,13 +157,13 @@ fn value_chart(
             _ if legend.has(k) => &curve.label,
             _ => "",
         };
-        let points: Vec<(f64, f64)> = curve.points.iter().map(|(x, y, _)| (*x, *y)).collect();
+        let points = curve.points.iter().map(|(x, y, _)| (*x, *y)).collect();
         let line = match choice.x.is_counted {
-            true => Line::points(label, x.points(&y, &points)),
-            false => Line::points_on_line(label, x.points(&y, &points)),
+            true => Line::points(label, points),
+            false => Line::points_on_line(label, points),
         };
         chart = chart.with(colours.on(line, k).with_errors(errors));
-        let reference = reference_line("", x.points(&y, &curve.reference));
+        let reference = reference_line("", curve.reference.clone());
         chart = match (is_one, k) {
             (true, 0) => chart.with(reference.coloured(GREY)),
             (false, k) if has_errors => chart.with(colours.on(reference, k)),
@@ -168,7 +172,7 @@ fn value_chart(
     }
     let bounds: Vec<_> = curves.iter().flat_map(|curve| curve.bounds.iter().copied()).collect();
     if !bounds.is_empty() {
-        let line = Line::points(BOUND, x.points(&y, &bounds));
+        let line = Line::points(BOUND, bounds);
         chart = chart.with(line.like_curve(TURN_OF_BOUNDS * COLOURS.len()).in_colour(GREY));
     }
     if let Some(rest) = legend.rest.as_ref().filter(|_| colours.pair.is_none()) {
