@@ -8,26 +8,10 @@ use crate::scene::{decision_on, simulation_of, summary_of};
 
 /// A 10 mm glass ball on a large one of the same material.
 const BALL: &str = r#"
-[material.glass]
-density = "2390 kg/m^3"
-youngs_modulus = "63 GPa"
-poissons_ratio = 0.25
-elastic = true
-
-[[body]]
-name = "block"
-sphere = { diameter = "3 m" }
-material = "glass"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "glass"
-approach_speed = "3 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.glass = { density = "2390 kg/m^3", youngs_modulus = "63 GPa", poissons_ratio = 0.25, elastic = true }
+    body = [{ name = "block", sphere.diameter = "3 m", material = "glass" },
+            { name = "ball", sphere.diameter = "10 mm", material = "glass", approach_speed = "3 m/s" }]
+    output.snapshots = []"#;
 
 fn simulation(overrides: &[&str]) -> Simulation {
     simulation_of(BALL, overrides)

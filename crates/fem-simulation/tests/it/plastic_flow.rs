@@ -8,25 +8,12 @@ use crate::scene::{
 
 /// A ball on a wall that yields from 35 mm/s on, on a coarse mesh.
 const BALL: &str = r#"
-[material.steel]
-density = "7850 kg/m^3"
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-[material.steel.flow]
-yield_strength = "1 GPa"
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "steel"
-approach_speed = "1 m/s"
-[[body]]
-name = "wall"
-wall = {}
-[accuracy]
-tolerance = "5 %"
-[model]
-fem = {}
-"#;
+    material.steel = { density = "7850 kg/m^3", youngs_modulus = "210 GPa", poissons_ratio = 0.3,
+        flow.yield_strength = "1 GPa" }
+    body = [{ name = "ball", sphere.diameter = "10 mm", material = "steel", approach_speed = "1 m/s" },
+            { name = "wall", wall = {} }]
+    accuracy.tolerance = "5 %"
+    model.fem = {}"#;
 const SLOW: &str = "body.0.approach_speed='30 mm/s'";
 
 /// The digits of all quantities.
@@ -38,8 +25,7 @@ fn bits(overrides: &[&str], text: &str) -> [u64; 6] {
 /// Below first yield the run is the elastic one to the last bit, and so is one with the effect switched off.
 #[test]
 fn flow_is_computed_above_first_yield_only() {
-    let elastic =
-        BALL.replace("[material.steel.flow]\nyield_strength = \"1 GPa\"", "elastic = true");
+    let elastic = BALL.replace("flow.yield_strength = \"1 GPa\"", "elastic = true");
     assert_eq!(bits(&[SLOW], BALL), bits(&[SLOW], &elastic));
     let off = "effects.plastic_flow='off'";
     assert_eq!(bits(&[off], BALL), bits(&[], &elastic));
@@ -64,7 +50,7 @@ fn flow_is_computed_above_first_yield_only() {
         "{warnings}"
     );
     // A strength alone is that of perfect plasticity.
-    let strength = BALL.replace("[material.steel.flow]\n", "");
+    let strength = BALL.replace("flow.yield", "yield");
     assert_eq!(bits(&[], BALL), bits(&[], &strength));
 }
 

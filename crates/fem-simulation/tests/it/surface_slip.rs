@@ -8,30 +8,11 @@ use crate::scene::{coarse_glass, collision_of, resolved, simulation_of};
 
 /// A steel ball on a soft sphere ten times as large; the contact radius becomes 0.073 of the ball's radius.
 const STEEL_ON_SOFT: &str = r#"
-[material.soft]
-density = "1200 kg/m^3"
-youngs_modulus = "3 GPa"
-poissons_ratio = 0.2
-
-[material.steel]
-density = "7850 kg/m^3"
-youngs_modulus = "206 GPa"
-poissons_ratio = 0.3
-
-[[body]]
-name = "soft"
-sphere = { diameter = "40 mm" }
-material = "soft"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "4 mm" }
-material = "steel"
-approach_speed = "0.5 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.soft = { density = "1200 kg/m^3", youngs_modulus = "3 GPa", poissons_ratio = 0.2 }
+    material.steel = { density = "7850 kg/m^3", youngs_modulus = "206 GPa", poissons_ratio = 0.3 }
+    body = [{ name = "soft", sphere.diameter = "40 mm", material = "soft" },
+            { name = "ball", sphere.diameter = "4 mm", material = "steel", approach_speed = "0.5 m/s" }]
+    output.snapshots = []"#;
 
 const OFF: &str = "effects.surface_slip='off'";
 const ON: &str = "effects.surface_slip='on'";
