@@ -2,7 +2,7 @@
 
 use fem_laws::{HertzImpact, LawError, Pair, Partner, contact_time_coefficient};
 
-use crate::common::{assert_close, glass, glass_pair};
+use crate::common::{assert_close, glass_pair};
 
 /// Reference numbers for glass, 22.2 mm on 15.9 mm, to one unit of the last digit printed: the
 /// table cuts 72.6378 µs to 72.637 and has 1.3550 GPa for 1.35491.

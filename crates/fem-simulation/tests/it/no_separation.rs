@@ -162,12 +162,3 @@ fn the_steps_of_a_relaxing_contact_are_predicted() {
         assert!(share > 0.5 / most && share < 0.5 * most, "{weight} {time}: {share}");
     }
 }
-
-#[test]
-fn bodies_with_equilibrium_stiffness_separate() {
-    for model in ["fem", "condensed"] {
-        let collision = simulation(model, "all", 0.9, "1 us").run(&mut ());
-        assert_eq!(collision.ending, Ending::Parted, "{model}");
-        assert!(collision.restitution.unwrap() > 0.01, "{model} {:?}", collision.restitution);
-    }
-}
