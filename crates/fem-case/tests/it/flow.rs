@@ -7,13 +7,8 @@ use fem_material::FlowRule;
 
 use crate::{BALL_ON_WALL, parse_in};
 
-const METAL: &str = r#"
-[material.solid]
-density = 8000
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-yield_strength = "235 MPa"
-"#;
+const METAL: &str = r#"material.solid = { density = 8000, youngs_modulus = "200 GPa", poissons_ratio = 0.3,
+    yield_strength = "235 MPa" }"#;
 
 fn parse(folder: &Path, overrides: &[&str]) -> Result<Case, CaseError> {
     parse_in(folder, "ball.toml", &format!("{METAL}{BALL_ON_WALL}"), overrides)

@@ -10,15 +10,8 @@ use fem_material::{ElasticModuli, Material};
 use crate::parse_in;
 
 const BALL: &str = "
-[[body]]
-name = 'floor'
-wall = {}
-
-[[body]]
-name = 'ball'
-sphere = { diameter = '10 mm' }
-material = 'lib:pmma'
-approach_speed = '1 m/s'
+    body = [{ name = 'floor', wall = {} },
+            { name = 'ball', sphere.diameter = '10 mm', material = 'lib:pmma', approach_speed = '1 m/s' }]
 ";
 
 fn parse(text: &str, overrides: &[&str]) -> Result<Case, fem_case::CaseError> {
@@ -123,7 +116,7 @@ fn single_keys_can_be_overridden() {
 #[test]
 fn an_unknown_name_lists_the_library() {
     let error = parse(&BALL.replace("pmma", "pmna"), &[]).unwrap_err();
-    assert_eq!((error.line(), error.column()), (Some(9), Some(12)), "{error}");
+    assert_eq!((error.line(), error.column()), (Some(3), Some(68)), "{error}");
     let text = error.to_string();
     assert!(text.contains("did you mean `lib:pmma`?"), "{text}");
     assert!(text.contains("lib:alumina, lib:aluminium"), "{text}");
@@ -185,7 +178,7 @@ fn an_unknown_loss_is_known() {
         bodies.map(|body| body.name().to_string()).collect::<Vec<_>>()
     };
     // Of the library, as `fem-run new` writes it, and as a resolved case has it.
-    let copy = table_text("pmma").unwrap() + &BALL.replace("lib:pmma", "pmma");
+    let copy = BALL.replace("lib:pmma", "pmma") + &table_text("pmma").unwrap();
     for (text, flows) in [(BALL, false), (BALL, true), (&copy, false)] {
         assert_eq!(unknown(text, &[], flows), ["ball"]);
     }
@@ -247,7 +240,7 @@ fn measured_restitutions_are_found_at_their_speeds() {
     assert_eq!(measured("10 cm/s").unwrap().0, "heisselmann-2010");
     assert_eq!(measured("1 m/s"), None);
     // Restitutions of ice on ice are not those of ice on steel.
-    let two = BALL.replace("wall = {}", "half_space = {}\nmaterial = 'lib:steel'");
+    let two = BALL.replace("wall = {}", "half_space = {}, material = 'lib:steel'");
     let of = |text: &str| {
         parse(text, &["body.1.material='lib:ice'"]).unwrap().scene().measured_restitutions().len()
     };

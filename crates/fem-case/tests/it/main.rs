@@ -15,15 +15,8 @@ use fem_case::{Case, CaseError};
 
 /// A ball of the material "solid", which a test puts before it, on a wall.
 const BALL_ON_WALL: &str = r#"
-[[body]]
-name = "ball"
-sphere = { diameter = "1 cm" }
-material = "solid"
-approach_speed = "1 m/s"
-[[body]]
-name = "wall"
-wall = {}
-"#;
+    body = [{ name = "ball", sphere.diameter = "1 cm", material = "solid", approach_speed = "1 m/s" },
+            { name = "wall", wall = {} }]"#;
 
 /// Reads a text with overrides, as from a file in a folder.
 fn parse_in(folder: &Path, name: &str, text: &str, overrides: &[&str]) -> Result<Case, CaseError> {

@@ -7,26 +7,11 @@ use fem_case::{Case, CaseError, Shape, Snapshots};
 use crate::parse_in;
 
 const CASE: &str = r#"
-[material.glass]
-density = 2390
-youngs_modulus = 63e9
-poissons_ratio = 0.244
-[material."my glass"]
-density = 2500
-youngs_modulus = 63e9
-poissons_ratio = 0.244
-[[body]]
-name = "striker"
-sphere = { diameter = 0.02 }
-material = "glass"
-approach_speed = 0.5
-[[body]]
-name = "target"
-sphere = { diameter = 0.01 }
-material = "glass"
-[output]
-snapshots = ["maximum"]
-"#;
+    material.glass = { density = 2390, youngs_modulus = 63e9, poissons_ratio = 0.244 }
+    material."my glass" = { density = 2500, youngs_modulus = 63e9, poissons_ratio = 0.244 }
+    body = [{ name = "striker", sphere.diameter = 0.02, material = "glass", approach_speed = 0.5 },
+            { name = "target", sphere.diameter = 0.01, material = "glass" }]
+    output.snapshots = ["maximum"]"#;
 
 fn with(overrides: &[&str]) -> Result<Case, CaseError> {
     parse_in(Path::new("."), "pair.toml", CASE, overrides)
@@ -179,13 +164,13 @@ fn faults_in_an_overrides_key_are_marked() {
 
 #[test]
 fn an_override_is_blamed_for_contradictions() {
-    let glass = "[material.glass]\ndensity = 1\nyoungs_modulus = 2\nbulk_modulus = 2\n\
-                 [material.glass.relaxation]\nacts_on = 'all'\n\
-                 terms = [{ weight = 0.1, relaxation_time = 1 }, { weight = 0.2, decay_rate = 1 }]\n";
-    let bodies = "[[body]]\nname = 'a'\nwall = {}\n[[body]]\nname = 'b'\n\
-                  sphere = { diameter = 1 }\nmaterial = 'glass'\napproach_speed = 1\n";
-    let text = format!("{glass}{bodies}[model]\nfem = {{}}\n");
-    let parse = |overrides: &[String]| Case::parse("x", &text, Path::new("."), overrides);
+    let text = "
+        material.glass = { density = 1, youngs_modulus = 2, bulk_modulus = 2, relaxation = { acts_on = 'all',
+            terms = [{ weight = 0.1, relaxation_time = 1 }, { weight = 0.2, decay_rate = 1 }] } }
+        body = [{ name = 'a', wall = {} },
+                { name = 'b', sphere.diameter = 1, material = 'glass', approach_speed = 1 }]
+        model.fem = {}";
+    let parse = |overrides: &[String]| Case::parse("x", text, Path::new("."), overrides);
     parse(&[]).unwrap();
     for (key, value) in [
         ("material.glass.relaxation.terms.0.decay_rate", "1"),
@@ -218,7 +203,7 @@ fn a_fault_of_the_file_still_points_into_the_file() {
     let text = CASE.replace("2390", "-2390");
     let error = Case::parse("pair.toml", &text, Path::new("."), &overrides).unwrap_err();
     assert_eq!(error.source_name(), "pair.toml");
-    assert_eq!((error.line(), error.column()), (Some(3), Some(11)));
+    assert_eq!((error.line(), error.column()), (Some(2), Some(34)));
 }
 
 /// A key in the wrong table, a body by its name or without its index, and a table of a material that no body is of.

@@ -7,12 +7,8 @@ use fem_case::{Case, CaseError};
 use crate::{BALL_ON_WALL, parse_in};
 
 const POLYMER: &str = r#"
-[material.solid]
-density = 1200
-youngs_modulus = "2 GPa"
-poissons_ratio = 0.35
-relaxation = { file = "polymer.relaxation.toml" }
-"#;
+    material.solid = { density = 1200, youngs_modulus = "2 GPa", poissons_ratio = 0.35,
+        relaxation.file = "polymer.relaxation.toml" }"#;
 
 const SERIES: &str = r#"# a series
 acts_on = "all"

@@ -182,7 +182,7 @@ fn glass_case_has_the_published_bodies_and_material() {
 }
 
 #[test]
-fn variants_of_the_glass_case_differ_only_in_relaxation() {
+fn variants_of_the_glass_case_differ_only_in_relaxation_and_the_wall_lies_below() {
     let bodies = |name: &str| repository_case(name).scene().bodies().clone();
     let relaxation = |name: &str| {
         let mut relaxations = Vec::new();
@@ -199,10 +199,6 @@ fn variants_of_the_glass_case_differ_only_in_relaxation() {
     };
     assert_eq!(relaxation("glass_0.5ms_elastic.toml"), [None; 2]);
     assert_eq!(relaxation("glass_0.5ms_elastic_bulk.toml"), [Some(ActsOn::Shear); 2]);
-}
-
-#[test]
-fn the_wall_lies_below_the_ball() {
     let case = repository_case("glass_on_wall.toml");
     let [wall, ball] = case.scene().bodies();
     assert_eq!((wall.shape(), wall.velocity()), (&Shape::Wall, 0.0));

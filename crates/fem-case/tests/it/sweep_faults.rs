@@ -7,10 +7,7 @@ use tempfile::TempDir;
 
 use crate::BALL_ON_WALL;
 
-const GLASS: &str = r#"[material.solid]
-density = "2390 kg"
-youngs_modulus = "63 GPa"
-poissons_ratio = 0.244"#;
+const GLASS: &str = r#"material.solid = { density = "2390 kg", youngs_modulus = "63 GPa", poissons_ratio = 0.244 }"#;
 
 /// Returns file, line and column of the faults of a sweep over these values.
 fn places(values: &str) -> Vec<(String, usize, usize)> {
@@ -32,7 +29,7 @@ fn places(values: &str) -> Vec<(String, usize, usize)> {
 #[test]
 fn faults_of_the_base_case_hide_none_of_the_values() {
     let found = places("body.0.approach_speed = [1, '2 kg']\n'body.0.sphere.diametre' = [1]");
-    let expected = [("base.toml", 2, 11), ("sweep.toml", 3, 29), ("sweep.toml", 4, 16)];
+    let expected = [("base.toml", 1, 30), ("sweep.toml", 3, 29), ("sweep.toml", 4, 16)];
     assert_eq!(found, expected.map(|(file, line, column)| (file.to_string(), line, column)));
 }
 

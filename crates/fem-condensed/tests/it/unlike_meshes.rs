@@ -14,26 +14,45 @@ fn run(scene: &Scene, elements: [f64; 2]) -> Collision {
     scene.collide(&CondensedPair::new([lower, upper], scene.settings()).unwrap())
 }
 
-/// One mesh at the default size, the other up to twice as fine: as right as two at the default.
-/// Limits are converged quasi-static finite elements of another code, tolerances those of matching
-/// meshes; forces on the nearest nodes alone would be 0.9 % off in contact time.
+/// Both meshes at the default element size, an eighth of the contact radius, or one of them up to twice as fine.
+/// Limits are converged quasi-static finite elements of another code (h = 3.75 µm); forces on the nearest nodes alone would be
+/// 0.9 % off in contact time.
 #[test]
-fn finer_partner_mesh_keeps_the_accuracy_of_matching_meshes() {
+fn glass_pair_equals_converged_finite_elements_with_like_and_unlike_meshes() {
     let elastic = Scene::paper(glass(), glass());
     let hertz = elastic.hertz();
-    for elements in [[8.0, 12.0], [12.0, 8.0], [8.0, 16.0], [16.0, 8.0]] {
+    for elements in [[8.0, 8.0], [8.0, 12.0], [12.0, 8.0], [8.0, 16.0], [16.0, 8.0]] {
         let run = run(&elastic, elements);
-        assert_pulse(&run, CONVERGED, [1.5e-3, 3e-3, 1.5e-3]);
-        let at_force =
-            (run.peak_force.unwrap() / hertz.peak_force()).cbrt() * hertz.peak_pressure();
-        assert_close("pressure", run.peak_pressure.unwrap(), 0.998 * at_force, 1e-2);
+        // The node set grows in steps of an element: ±0.02 % of T with the place of the edge between two nodes; what
+        // F would swing by that, ±0.2 %, is taken off; pressure 0.8 % low, first order in the element size.
+        let force = if elements == [8.0; 2] { 1e-3 } else { 3e-3 };
+        assert_pulse(&run, CONVERGED, [1.5e-3, force, 1.5e-3]);
+        let share = (run.peak_force.unwrap() / hertz.peak_force()).cbrt();
+        assert_close(
+            "pressure",
+            run.peak_pressure.unwrap(),
+            0.998 * share * hertz.peak_pressure(),
+            1e-2,
+        );
+        // A third of an element between nodes.
+        assert_close(
+            "radius",
+            run.max_contact_radius.unwrap(),
+            share * hertz.max_contact_radius(),
+            1e-2,
+        );
+        // Nothing is lost but in the time step: 1e-6.
         assert_restitution("elastic", &run, 1.0, 1e-5);
         assert_eq!((run.contact_episodes, run.repeated_contact_solutions), (1, Some(0)));
     }
-    for (acts_on, restitution) in CONVERGED_RESTITUTIONS {
+    for ((acts_on, restitution), elements) in
+        CONVERGED_RESTITUTIONS.into_iter().flat_map(|case| [(case, 8.0), (case, 16.0)])
+    {
         let relaxing = material(GLASS, acts_on, &[(1.0, 2708.0)]);
-        let run = run(&Scene::paper(relaxing.clone(), relaxing), [16.0, 8.0]);
+        let run = run(&Scene::paper(relaxing.clone(), relaxing), [elements, 8.0]);
         assert_restitution("relaxing", &run, restitution, 4e-4);
+        // The ledger closes to the order of the time step, (ωΔt)²/6 = 4e-5, where dissipation is
+        // summed from the state.
         assert_balance("relaxing", &run, 1e-4);
     }
 }

@@ -1,6 +1,6 @@
 //! A rigid sphere: its arc, its one node, where it ends.
 
-use crate::common::{STIFFNESS, forces, rigid, sphere};
+use crate::common::{STIFFNESS, forces, sphere};
 use fem_contact::{ContactError, ContactInterface, NodalContact, Surface};
 use fem_mesh::Side;
 
@@ -37,21 +37,6 @@ fn a_rigid_sphere_overlaps_with_its_true_arc() {
         assert!(interface.nodal_pressure([&u[0], &u[1]]).take_while(|(_, p)| *p > 0.0).count() > 5);
         assert_eq!(interface.candidate_nodes(rigid_side).collect::<Vec<_>>(), [0]);
     }
-}
-
-/// A plane is a sphere without end: r²/2R = 1e-17 m of a sphere of 1e10 m.
-#[test]
-fn wall_equals_a_rigid_sphere_of_huge_radius() {
-    let mesh = sphere(7.95e-3, 40e-6, 0.5e-3, Side::Above);
-    let make = |lower: Surface| {
-        ContactInterface::new(lower, Surface::of_sphere(&mesh), STIFFNESS, 0.0, 0.4e-3).unwrap()
-    };
-    let (wall, round) = (make(Surface::wall()), make(Surface::rigid_sphere(1e10).unwrap()));
-    assert_eq!(wall.n_points(), round.n_points());
-    assert_eq!(wall.candidate_radius(), round.candidate_radius());
-    let u = [vec![[0.0; 2]], rigid(&mesh, -5e-6)];
-    let [(wall, _), (round, _)] = [wall, round].map(|interface| forces(&interface, &u));
-    assert!((round.force / wall.force - 1.0).abs() < 1e-10);
 }
 
 /// Nothing is looked for beyond a small sphere's own radius, at Gauss points and at nodes.

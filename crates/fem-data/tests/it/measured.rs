@@ -149,25 +149,9 @@ fn names_of_uncertainties_are_read() {
         let data = Restitutions::read(&table.unwrap(), ball().scene()).unwrap();
         data.points[1].restitution_uncertainty
     };
-    for name in [
-        "± e",
-        "±e",
-        "+- e",
-        "delta e",
-        "Δe",
-        "u(e)",
-        "u_e",
-        "sigma_e",
-        "σ(e)",
-        "e_err",
-        "e error",
-        "COR_std",
-        "uncertainty",
-        "sigma",
-        "restitution_uncertainty",
-        "u(e) [-]",
-        "de",
-    ] {
+    let names = "± e|±e|+- e|delta e|Δe|u(e)|u_e|sigma_e|σ(e)|\
+        e_err|e error|COR_std|uncertainty|sigma|restitution_uncertainty|u(e) [-]|de";
+    for name in names.split('|') {
         assert_eq!(read(name), Some(0.02), "{name}");
     }
     assert_eq!(read("u(e) [%]"), Some(2e-4));

@@ -9,25 +9,11 @@ use crate::scene::{ELASTIC_GLASS, collision_of, summary_of};
 /// A ball of polystyrene on a wall, which sticks below 0.141 m/s (Thornton and Ning 1998) with a work of adhesion of
 /// 0.1 J/m².
 const POLYSTYRENE: &str = r#"
-[material.polystyrene]
-density = "1050 kg/m^3"
-youngs_modulus = "3.25 GPa"
-poissons_ratio = 0.34
-elastic = true
-
-[[body]]
-name = "wall"
-wall = {}
-
-[[body]]
-name = "ball"
-sphere = { diameter = "10 µm" }
-material = "polystyrene"
-approach_speed = "0.1 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.polystyrene = { density = "1050 kg/m^3", youngs_modulus = "3.25 GPa", poissons_ratio = 0.34,
+        elastic = true }
+    body = [{ name = "wall", wall = {} },
+            { name = "ball", sphere.diameter = "10 µm", material = "polystyrene", approach_speed = "0.1 m/s" }]
+    output.snapshots = []"#;
 
 const MODELS: [&str; 5] = [
     "model.fem={}",

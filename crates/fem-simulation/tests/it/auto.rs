@@ -10,48 +10,26 @@ use fem_simulation::effects::{Effect, EffectStatus, FiniteSizeEffect};
 use crate::scene::simulation_of as simulation;
 
 /// Returns the case of two spheres, the first of which strikes the second.
-fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {
-    let [striker, target] = diameters;
-    format!(
-        r#"
-{material}
-[[body]]
-name = "striker"
-sphere = {{ diameter = "{striker}" }}
-material = "stuff"
-approach_speed = "{speed}"
-
-[[body]]
-name = "target"
-sphere = {{ diameter = "{target}" }}
-material = "stuff"
-"#
-    )
+fn scene(material: &str, [striker, target]: [&str; 2], speed: &str) -> String {
+    let body = |name: &str, diameter: &str, speed: &str| {
+        format!(
+            "{{ name = '{name}', sphere.diameter = '{diameter}', material = 'stuff', approach_speed = '{speed}' }}"
+        )
+    };
+    let bodies = [body("striker", striker, speed), body("target", target, "0 m/s")];
+    format!("{material}\nbody = [{}]\n", bodies.join(", "))
 }
 
-const GLASS: &str = r#"[material.stuff]
-density = "2390 kg/m^3"
-youngs_modulus = "63 GPa"
-poissons_ratio = 0.244
-"#;
+const GLASS: &str =
+    "material.stuff = { density = 2390, youngs_modulus = '63 GPa', poissons_ratio = 0.244 }";
 
-const RELAXING: &str = r#"[material.stuff]
-density = "2390 kg/m^3"
-youngs_modulus = "63 GPa"
-poissons_ratio = 0.244
-[material.stuff.relaxation]
-acts_on = "shear"
-terms = [{ weight = 0.6, decay_rate = "2708 1/s" }]
-"#;
+const RELAXING: &str =
+    "material.stuff = { density = 2390, youngs_modulus = '63 GPa', poissons_ratio = 0.244,
+        relaxation = { acts_on = 'shear', terms = [{ weight = 0.6, decay_rate = '2708 1/s' }] } }";
 
-const RUBBER: &str = r#"[material.stuff]
-density = "1100 kg/m^3"
-youngs_modulus = "10 MPa"
-poissons_ratio = 0.45
-[material.stuff.relaxation]
-acts_on = "all"
-terms = [{ weight = 0.4, relaxation_time = "0.5 ms" }]
-"#;
+const RUBBER: &str =
+    "material.stuff = { density = 1100, youngs_modulus = '10 MPa', poissons_ratio = 0.45,
+        relaxation = { acts_on = 'all', terms = [{ weight = 0.4, relaxation_time = '0.5 ms' }] } }";
 
 /// The result of the chosen model does not advise another one for waves that a large partner takes.
 #[test]
@@ -208,7 +186,7 @@ fn the_cheapest_model_within_the_tolerance_is_chosen() {
 /// Computes the reference with the condensed model on elements of half the default size, with modes, or with the radiation
 /// term if a body is large.
 fn reference(text: &str) -> Collision {
-    let model = match text.contains("\"1 m\"") {
+    let model = match text.contains("'1 m'") {
         true => "model.condensed={}",
         false => "model.condensed={vibration_modes=12}",
     };
@@ -251,38 +229,15 @@ fn the_tolerance_of_the_peak_pressure_decides() {
 /// first order of the finite size are not valid.
 #[test]
 fn the_weight_counts_for_the_width_of_the_contact() {
-    let text = r#"
-[material.stuff]
-density = 6744
-youngs_modulus = "5.5 GPa"
-poissons_ratio = 0.0
-relaxation = { acts_on = "all", terms = [{ weight = 0.48, decay_rate = 3 }] }
-
-[material.soft]
-density = 9526
-youngs_modulus = "1 GPa"
-poissons_ratio = 0.0
-
-[[body]]
-name = "floor"
-sphere = { diameter = "2 m" }
-held = true
-material = "soft"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "2.66 m" }
-material = "stuff"
-
-[start]
-gap = "0.2 um"
-
-[gravity]
-acceleration = 13.2
-
-[model]
-auto = {}
-"#;
+    let text = "
+        material.stuff = { density = 6744, youngs_modulus = '5.5 GPa', poissons_ratio = 0.0,
+            relaxation = { acts_on = 'all', terms = [{ weight = 0.48, decay_rate = 3 }] } }
+        material.soft = { density = 9526, youngs_modulus = '1 GPa', poissons_ratio = 0.0 }
+        body = [{ name = 'floor', sphere.diameter = '2 m', held = true, material = 'soft' },
+                { name = 'ball', sphere.diameter = '2.66 m', material = 'stuff' }]
+        start.gap = '0.2 um'
+        gravity.acceleration = 13.2
+        model.auto = {}";
     let case = Case::parse("laid.toml", text, Path::new("."), &[]).unwrap();
     let laid = Simulation::new(case).unwrap();
     assert_eq!(laid.run(&mut ()).stop(), None);
@@ -313,27 +268,12 @@ fn no_chosen_model_stops_at_its_own_limit() {
 
 /// Steel on rubber at 15 m/s, a contact as wide as the spheres, where the error of small strain cannot be estimated.
 const FLAT: &str = r#"
-[material.steel]
-density = 7850
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-[material.stuff]
-density = 1171
-youngs_modulus = 5.17e6
-poissons_ratio = 0.256
-relaxation = { acts_on = "all", terms = [{ weight = 0.05, relaxation_time = "6.1 ms" }] }
-[[body]]
-name = "lower"
-sphere = { diameter = "38.8 mm" }
-material = "steel"
-[[body]]
-name = "upper"
-sphere = { diameter = "36.3 mm" }
-material = "stuff"
-approach_speed = 14.57
-[model]
-auto = {}
-"#;
+    material.steel = { density = 7850, youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+    material.stuff = { density = 1171, youngs_modulus = 5.17e6, poissons_ratio = 0.256,
+        relaxation = { acts_on = "all", terms = [{ weight = 0.05, relaxation_time = "6.1 ms" }] } }
+    body = [{ name = "lower", sphere.diameter = "38.8 mm", material = "steel" },
+            { name = "upper", sphere.diameter = "36.3 mm", material = "stuff", approach_speed = 14.57 }]
+    model.auto = {}"#;
 
 /// An error that cannot be estimated does not count as zero.
 #[test]
@@ -370,7 +310,7 @@ fn no_choice_advises_another_model() {
         let (modulus, mach) = (random(1e5, 1e11), random(1e-3, 0.5));
         let speed = mach * (modulus / 2.8 / 1100.0).sqrt();
         let material = format!(
-            "[material.stuff]\ndensity=1100\nyoungs_modulus={modulus}\npoissons_ratio=0.4\n"
+            "material.stuff={{ density=1100, youngs_modulus={modulus}, poissons_ratio=0.4 }}"
         );
         let diameters = [10.0, 10.0 * random(1.0, 3.0)].map(|mm| format!("{mm} mm"));
         let text =
@@ -390,7 +330,7 @@ fn no_choice_advises_another_model() {
 fn the_bar_includes_the_pressure_error_of_half_spaces() {
     let like = |nu: f64, young: f64, density: f64, diameter: f64, speed: f64| {
         let material = format!(
-            "[material.stuff]\ndensity={density}\nyoungs_modulus={young}\npoissons_ratio={nu}\n"
+            "material.stuff={{ density={density}, youngs_modulus={young}, poissons_ratio={nu} }}"
         );
         let diameter = format!("{diameter} m");
         scene(&material, [&diameter, &diameter], &format!("{speed} m/s"))

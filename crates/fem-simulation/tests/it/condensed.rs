@@ -1,13 +1,13 @@
 //! `[model] condensed`: its keys, its results compared with the explicit model, and pairs that cases share.
 
-use fem_case::{Case, CaseError, CondensedOptions, ModelChoice};
+use fem_case::Case;
 use fem_collision::{Collision, QuantityOfInterest};
 use fem_simulation::{Condensed, Model, PairCache, SharedModels, Simulation};
 
-use crate::scene::{GLASS, collision_of, refused_of, simulation_of};
+use crate::scene::{GLASS, case_of, collision_of, refused_of, simulation_of};
 
-fn parse(overrides: &[&str]) -> Result<Case, CaseError> {
-    crate::scene::parse(GLASS, overrides)
+fn case(overrides: &[&str]) -> Case {
+    case_of(GLASS, overrides)
 }
 
 fn simulation(overrides: &[&str]) -> Simulation {
@@ -20,66 +20,6 @@ fn run(overrides: &[&str]) -> Collision {
 
 const CONDENSED: &str = "model.condensed={}";
 
-#[test]
-fn keys_are_read_and_checked() {
-    let model = |value: &str| parse(&[value]).map(|case| case.scene().model().clone());
-    assert_eq!(model(CONDENSED).unwrap(), ModelChoice::Condensed(CondensedOptions::default()));
-    let all = "model.condensed={vibration_modes=12, steps=200, penalty_springs=true}";
-    let expected = CondensedOptions { vibration_modes: 12, steps: 200, penalty_springs: true };
-    assert_eq!(model(all).unwrap(), ModelChoice::Condensed(expected));
-    for (value, message) in [
-        ("model.condensed.vibration_modes=-1", "vibration_modes is -1"),
-        ("model.condensed.vibration_modes=1.5", "vibration_modes is 1.5"),
-        ("model.condensed.steps=10", "steps is 10"),
-        ("model.condensed.mesh=1", "mesh"),
-    ] {
-        let error = model(value).unwrap_err();
-        assert!(error.message().contains(message), "{error}");
-    }
-}
-
-/// Results of the condensed and of the explicit model agree for the same case.
-#[test]
-fn results_are_those_of_the_explicit_model() {
-    for extra in [&[][..], &["start.gap='1 um'", "body.1.approach_speed='0.2 m/s'"]] {
-        // The case's own relaxation, on a mesh of some hundred elements.
-        let coarse = ["mesh.contact_element_size='60 um'"];
-        let overrides: Vec<&str> = coarse.iter().chain(extra).copied().collect();
-        let fem = run(&overrides);
-        let overrides: Vec<&str> = overrides.into_iter().chain([CONDENSED]).collect();
-        let condensed = run(&overrides);
-        assert!(condensed.is_complete());
-        let close = |a: Option<f64>, b: Option<f64>, relative: f64| {
-            let error = a.unwrap() / b.unwrap() - 1.0;
-            assert!(error.abs() < relative, "{a:?} {b:?} {error:e}");
-        };
-        // Less than four elements across the contact: the difference is the penalty's.
-        close(condensed.restitution, fem.restitution, 2e-3);
-        close(condensed.contact_time, fem.contact_time, 1e-2);
-        close(condensed.peak_force, fem.peak_force, 2e-2);
-        close(condensed.max_approach, fem.max_approach, 1e-2);
-        // Mass scaling adds up to 2e-4 of the mass to the explicit bodies.
-        close(condensed.initial_energy, fem.initial_energy, 2e-4);
-        for (a, b) in condensed.bodies.iter().zip(&fem.bodies) {
-            assert_eq!((a.elements, a.nodes), (b.elements, b.nodes));
-            close(a.mass, b.mass, 1e-9);
-            assert!((a.velocity_after.unwrap() - b.velocity_after.unwrap()).abs() < 1e-3);
-        }
-        let labels = |collision: &Collision| -> Vec<_> {
-            collision.snapshots.iter().map(|snapshot| snapshot.label).collect()
-        };
-        assert_eq!(labels(&condensed), labels(&fem));
-        for (a, b) in condensed.snapshots.iter().zip(&fem.snapshots) {
-            assert!((a.time - b.time).abs() < 1e-6, "{} {}", a.time, b.time);
-        }
-        assert!(condensed.residual_relative.unwrap() < 1e-5);
-        assert!(condensed.momentum_residual_relative.unwrap() < 1e-12);
-        let rows = &condensed.history;
-        assert!(rows.windows(2).all(|two| two[0].time < two[1].time));
-        assert!((1000..1400).contains(&rows.len()));
-    }
-}
-
 /// Speeds and relaxations on one mesh share a factor and give the same bits as without sharing.
 #[test]
 fn cases_share_a_pair() {
@@ -88,7 +28,7 @@ fn cases_share_a_pair() {
     let cache = &shared.pairs;
     let condensed_of = |extra: &str| {
         let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
-        let case = parse(&overrides).unwrap();
+        let case = case(&overrides);
         let condensed = Condensed::new(case.scene(), &shared).unwrap();
         let (approach, request) = (condensed.setup().approach, condensed.setup().request.clone());
         let collision = condensed.collide(&approach, &request, &mut ());
@@ -127,15 +67,15 @@ const COARSE: [&str; 3] =
 
 /// Returns nine pairings at two speeds; the speed is the outer loop or the inner one.
 fn nine_pairings(speed_is_slow: bool) -> Vec<Case> {
-    let case = |speed: usize, pairing: usize| {
+    let member = |speed: usize, pairing: usize| {
         let [first, second] = [pairing / 3, pairing % 3];
         let speed = format!("body.0.approach_speed={}", [0.1, 0.3][speed]);
         let first = format!("body.0.sphere.diameter='{} mm'", 20 + first);
         let second = format!("body.1.sphere.diameter='{} mm'", 15 + second);
-        parse(&[&COARSE[..], &[&speed, &first, &second]].concat()).unwrap()
+        case(&[&COARSE[..], &[&speed, &first, &second]].concat())
     };
     let index = |k: usize| if speed_is_slow { (k / 9, k % 9) } else { (k % 2, k / 2) };
-    (0..18).map(index).map(|(speed, pairing)| case(speed, pairing)).collect()
+    (0..18).map(index).map(|(speed, pairing)| member(speed, pairing)).collect()
 }
 
 fn restitution(case: Case, shared: &SharedModels) -> f64 {
@@ -173,7 +113,7 @@ fn speeds_and_relaxations_share_meshes() {
             let rate = 500.0 * 10.0_f64.powf(f64::from(k / 6) / 4.0);
             let speed = format!("body.0.approach_speed={speed:?}");
             let rate = format!("material.glass.relaxation.terms.0.decay_rate={rate:?}");
-            parse(&[CONDENSED, &speed, &rate]).unwrap()
+            case(&[CONDENSED, &speed, &rate])
         })
     };
     let shared = SharedModels::default();
@@ -203,7 +143,7 @@ fn threads_do_not_factor_a_pair_twice() {
     std::thread::scope(|scope| {
         for _ in 0..4 {
             scope.spawn(|| {
-                let case = parse(&COARSE).unwrap();
+                let case = case(&COARSE);
                 barrier.wait();
                 Simulation::sharing(case, &shared).unwrap();
             });
@@ -222,7 +162,7 @@ fn enlarged_pair_is_not_shared_with_other_cases() {
              decay_rate=1e6}}]}}"
         );
         let fine = ["mesh.contact_element_size='0.1 mm'", "body.0.approach_speed=1.2", &terms];
-        parse(&[&COARSE[1..], &fine].concat()).unwrap()
+        case(&[&COARSE[1..], &fine].concat())
     };
     let condensed = |case: Case| {
         let condensed = Condensed::new(case.scene(), &shared).unwrap();

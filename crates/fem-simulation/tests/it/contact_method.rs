@@ -101,22 +101,6 @@ fn a_massless_boundary_does_not_ring_behind_fronts() {
     assert!(quiet.restitution > spread.restitution);
 }
 
-/// A warning about ringing stiff springs advises a massless boundary, which helps.
-#[test]
-fn a_remedy_is_advised_for_ringing_springs() {
-    let warnings = |method: &str| {
-        let simulation =
-            fem(&["contact.penalty_factor=100", "effects.viscoelasticity='off'", method]);
-        let collision = simulation.run(&mut ());
-        let about = |text: &String| text.contains("scatters") || text.contains("add up");
-        simulation.warnings(&collision).into_iter().filter(about).collect::<Vec<_>>()
-    };
-    let told = warnings(PENALTY);
-    assert!(!told.is_empty());
-    assert!(told.iter().all(|text| text.contains("contact.method = \"massless\"")), "{told:?}");
-    assert_eq!(warnings(MASSLESS), [""; 0]);
-}
-
 /// Bounces of a ball gain no energy.
 #[test]
 fn massless_bounces_gain_no_energy() {

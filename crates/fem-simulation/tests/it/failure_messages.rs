@@ -8,23 +8,11 @@ use crate::scene::{ELASTIC_GLASS as GLASS, SOFT_SPHERE as SOFT, refused_of, simu
 /// A ball of steel on one of rubber: surfaces that slip, and a front of contact as fast as waves.
 const SLIP: &str = "
     material.steel = { density = 7850, youngs_modulus = '210 GPa', poissons_ratio = 0.3 }
-    [material.rubber]
-    density = 1100
-    youngs_modulus = '5 MPa'
-    poissons_ratio = 0.45
-    relaxation = { acts_on = 'shear', terms = [{ weight = 0.5, relaxation_time = '1 ms' }] }
-    [[body]]
-    name = 'ball'
-    sphere.diameter = '20 mm'
-    material = 'steel'
-    approach_speed = '0.5 m/s'
-    [[body]]
-    name = 'target'
-    sphere.diameter = '20 mm'
-    material = 'rubber'
-    [model]
-    fem = {}
-";
+    material.rubber = { density = 1100, youngs_modulus = '5 MPa', poissons_ratio = 0.45,
+        relaxation = { acts_on = 'shear', terms = [{ weight = 0.5, relaxation_time = '1 ms' }] } }
+    body = [{ name = 'ball', sphere.diameter = '20 mm', material = 'steel', approach_speed = '0.5 m/s' },
+            { name = 'target', sphere.diameter = '20 mm', material = 'rubber' }]
+    model.fem = {}";
 
 fn run(case: &str, overrides: &[&str]) -> (Simulation, Collision) {
     let simulation = simulation_of(case, overrides);

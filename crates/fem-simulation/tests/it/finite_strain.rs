@@ -8,30 +8,12 @@ use crate::scene::{GLASS, case_of, simulation_of};
 
 /// A rubber ball on a wall with a contact radius of about half of its own.
 const RUBBER: &str = r#"
-[material.rubber]
-density = "1100 kg/m^3"
-youngs_modulus = "1 MPa"
-poissons_ratio = 0.45
-hyperelastic = "hencky"
-
-[material.steel]
-density = "7800 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-
-[[body]]
-name = "wall"
-wall = {}
-
-[[body]]
-name = "ball"
-sphere = { diameter = "30 mm" }
-material = "rubber"
-approach_speed = "2 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.rubber = { hyperelastic = "hencky", density = "1100 kg/m^3", youngs_modulus = "1 MPa",
+        poissons_ratio = 0.45 }
+    material.steel = { density = "7800 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }
+    body = [{ name = "wall", wall = {} },
+            { name = "ball", sphere.diameter = "30 mm", material = "rubber", approach_speed = "2 m/s" }]
+    output.snapshots = []"#;
 
 const STEEL_BALL: &str =
     "body.0={ name = 'wall', sphere = { diameter = '10 mm' }, material = 'steel' }";
@@ -108,7 +90,7 @@ fn the_run_agrees_with_the_decision() {
 
 #[test]
 fn a_case_without_a_law_is_warned_of_the_spread_of_laws() {
-    let unnamed = RUBBER.replace("hyperelastic = \"hencky\"\n", "");
+    let unnamed = RUBBER.replace("hyperelastic = \"hencky\", ", "");
     let simulation = simulation_of(&unnamed, &["mesh.contact_element_size='2 mm'"]);
     let reason = decision_on(&simulation).reason;
     assert!(reason.contains("neo-hooke") && reason.contains("other laws"), "{reason}");

@@ -7,40 +7,23 @@ use fem_simulation::{Regime, SharedModels, Simulation, Summary, method_of};
 use crate::scene::{decision_on, simulation_of as simulation, summary_of};
 
 /// Ten terms over as many decades, like the fit of a polymer's master curve.
-const POLYMER: &str = r#"
-[material.polymer]
-density = "1200 kg/m^3"
-youngs_modulus = "3 GPa"
-poissons_ratio = 0.35
-
-[material.polymer.relaxation]
-acts_on = "shear"
-terms = [
-    { weight = 0.05, relaxation_time = "1e-11 s" },
-    { weight = 0.05, relaxation_time = "1e-10 s" },
-    { weight = 0.05, relaxation_time = "1e-9 s" },
-    { weight = 0.1, relaxation_time = "1e-7 s" },
-    { weight = 0.1, relaxation_time = "1e-5 s" },
-    { weight = 0.1, relaxation_time = "1e-3 s" },
-    { weight = 0.1, relaxation_time = "1e-1 s" },
-    { weight = 0.1, relaxation_time = "10 s" },
-    { weight = 0.05, relaxation_time = "1e3 s" },
-    { weight = 0.05, relaxation_time = "1e5 s" },
-]
-
-[[body]]
-name = "floor"
-wall = {}
-
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "polymer"
-approach_speed = "0.5 m/s"
-
-[output]
-snapshots = []
-"#;
+const POLYMER: &str = "
+    material.polymer = { density = 1200, youngs_modulus = '3 GPa', poissons_ratio = 0.35,
+        relaxation = { acts_on = 'shear', terms = [
+            { weight = 0.05, relaxation_time = '1e-11 s' },
+            { weight = 0.05, relaxation_time = '1e-10 s' },
+            { weight = 0.05, relaxation_time = '1e-9 s' },
+            { weight = 0.1, relaxation_time = '1e-7 s' },
+            { weight = 0.1, relaxation_time = '1e-5 s' },
+            { weight = 0.1, relaxation_time = '1e-3 s' },
+            { weight = 0.1, relaxation_time = '1e-1 s' },
+            { weight = 0.1, relaxation_time = '10 s' },
+            { weight = 0.05, relaxation_time = '1e3 s' },
+            { weight = 0.05, relaxation_time = '1e5 s' },
+        ] } }
+    body = [{ name = 'floor', wall = {} },
+            { name = 'ball', sphere.diameter = '10 mm', material = 'polymer', approach_speed = '0.5 m/s' }]
+    output.snapshots = []";
 
 /// The same without relaxation.
 const ELASTIC: &str =

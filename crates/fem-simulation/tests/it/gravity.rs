@@ -71,19 +71,6 @@ fn heights(collision: &Collision) -> Vec<f64> {
     tops.collect()
 }
 
-/// No bounce of an elastic ball gains by rounding, and a real gain is not hidden.
-#[test]
-fn no_bounce_returns_more_than_it_had() {
-    for model in ["model.hertz={}", "model.ting={}"] {
-        let found = run(&[model, ELASTIC, "stop.bounces=6"]);
-        let restitutions: Vec<f64> = found.bounces.iter().map(|it| it.restitution).collect();
-        assert!(restitutions.len() > 1, "{model}");
-        assert!(restitutions.iter().all(|e| *e <= 1.0), "{model}: {restitutions:?}");
-    }
-    assert_eq!(Ending::Parted.restitution(1.0 + 1e-12, 1.0), Some(1.0));
-    assert_eq!(Ending::Parted.restitution(1.01, 1.0), Some(1.01));
-}
-
 /// The change of the first contact by the weight agrees with its estimate, for a ball that is let down at 3 cm/s.
 #[test]
 fn the_neglect_error_of_gravity_is_that_of_runs() {
@@ -216,16 +203,25 @@ fn the_energy_of_a_ball_that_is_laid_down_balances() {
     }
 }
 
+/// A ball that loses nothing never rests. Models of one degree of freedom gain nothing by rounding, and a real gain is not hidden.
 #[test]
 fn a_ball_that_loses_nothing_never_rests_and_says_so() {
     for model in ["model.hertz={}", "model.ting={}", "model.condensed={}", "model.law.hertz={}"] {
-        let ball = run(&[model, ELASTIC, "stop.bounces=5"]);
-        assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 5), "{model}");
+        let ball = run(&[model, ELASTIC, "stop.bounces=6"]);
+        assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 6), "{model}");
         assert!(ball.is_complete() && ball.rest.is_none(), "{model}");
         // Condensed elements step in time: 1e-5.
-        assert!(ball.bounces.iter().all(|bounce| (bounce.restitution - 1.0).abs() < 1e-5));
+        let most = if model == "model.condensed={}" { 1.0 + 1e-5 } else { 1.0 };
+        let is_all = |e: f64| (1.0 - 1e-5..=most).contains(&e);
+        assert!(
+            ball.bounces.iter().all(|it| is_all(it.restitution)),
+            "{model}: {:?}",
+            ball.bounces
+        );
         assert!(ball.warnings.iter().any(|text| text.contains("never rests")), "{model}");
     }
+    assert_eq!(Ending::Parted.restitution(1.0 + 1e-12, 1.0), Some(1.0));
+    assert_eq!(Ending::Parted.restitution(1.01, 1.0), Some(1.01));
 }
 
 /// So does one that falls so slowly that its flight is shorter than what is looked at of a fast one:

@@ -6,36 +6,20 @@ use fem_simulation::effects::{EFFECTS, EffectStatus};
 
 use crate::scene::{refused_of, simulation_of, summary_of};
 
-const METAL: &str = r#"
-[material.metal]
-density = "7800 kg/m^3"
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-hyperelastic = "hencky"
-[material.metal.relaxation]
-acts_on = "all"
-terms = [{ weight = 1e-3, relaxation_time = "10 us" }]
-"#;
-const RUBBER: &str = r#"
-[material.metal]
-density = 1100
-youngs_modulus = "10 MPa"
-poissons_ratio = 0.45
-hyperelastic = "neo-hooke"
-[material.metal.relaxation]
-acts_on = "all"
-terms = [{ weight = 0.4, relaxation_time = "0.5 ms" }]
-"#;
-const BALL: &str = r#"
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "metal"
-approach_speed = "1 m/s"
-"#;
+const METAL: &str =
+    "density = 7800, youngs_modulus = '210 GPa', poissons_ratio = 0.3, hyperelastic = 'hencky',
+    relaxation = { acts_on = 'all', terms = [{ weight = 1e-3, relaxation_time = '10 us' }] }";
+const RUBBER: &str =
+    "density = 1100, youngs_modulus = '10 MPa', poissons_ratio = 0.45, hyperelastic = 'neo-hooke',
+    relaxation = { acts_on = 'all', terms = [{ weight = 0.4, relaxation_time = '0.5 ms' }] }";
 
+/// Returns the case of a ball of a metal, with the keys of the material and of the partner.
 fn on(material: &str, partner: &str) -> String {
-    format!("{material}\n[[body]]\nname = \"partner\"\n{partner}\n{BALL}")
+    format!(
+        "material.metal = {{ {material} }}
+        body = [{{ name = 'partner', {partner} }},
+                {{ name = 'ball', sphere.diameter = '10 mm', material = 'metal', approach_speed = '1 m/s' }}]"
+    )
 }
 
 /// A sweep of one key of a scene, with the values of its key, ascending.
@@ -81,7 +65,7 @@ fn errors_of(simulation: &Simulation) -> Vec<Errors> {
 /// of the ball cancel in the contact time.)
 #[test]
 fn no_bar_shrinks_where_an_effect_ends() {
-    let plate = |mm: u32| on(METAL, &format!("plate.thickness = '{mm} mm'\nmaterial = 'metal'"));
+    let plate = |mm: u32| on(METAL, &format!("plate.thickness = '{mm} mm', material = 'metal'"));
     let speed = "body.1.approach_speed";
     let sweeps = [
         Sweep { scene: plate(12), key: speed, values: values(4.0, 10.0) },
@@ -90,7 +74,7 @@ fn no_bar_shrinks_where_an_effect_ends() {
         Sweep { scene: on(METAL, "wall = {}"), key: speed, values: values(3.0, 20.0) },
         Sweep { scene: on(RUBBER, "wall = {}"), key: speed, values: values(0.3, 8.0) },
         Sweep {
-            scene: on(METAL, "sphere.diameter = '2 cm'\nmaterial = 'metal'"),
+            scene: on(METAL, "sphere.diameter = '2 cm', material = 'metal'"),
             key: "body.0.sphere.diameter",
             values: values(0.01, 0.3),
         },
@@ -121,7 +105,7 @@ fn no_bar_shrinks_where_an_effect_ends() {
 /// contact on a plate with an edge has its waves back.
 #[test]
 fn a_film_is_told_to_stretch() {
-    let film = on(METAL, "plate.thickness = '60 um'\nmaterial = 'metal'");
+    let film = on(METAL, "plate.thickness = '60 um', material = 'metal'");
     for model in ["model.ting={}", "model.hertz={}", "model.condensed={}"] {
         let summary = summary_of(&film, &[model]);
         // By hand: β m v of 1.5 mm.
@@ -143,7 +127,7 @@ fn a_film_is_told_to_stretch() {
 #[test]
 fn advice_on_bonded_plates_does_not_go_in_circles() {
     let bonded =
-        on(METAL, "plate = { thickness = '0.4 mm', support = 'bonded' }\nmaterial = 'metal'");
+        on(METAL, "plate = { thickness = '0.4 mm', support = 'bonded' }, material = 'metal'");
     let models =
         ["model.fem={}", "model.auto={}", "model.ting={}", "model.condensed={}", "model.hertz={}"];
     for model in models {
@@ -160,7 +144,7 @@ fn advice_on_bonded_plates_does_not_go_in_circles() {
 /// The automatic choice leaves elements out where their mesh cannot be made or their run exceeds a limit.
 #[test]
 fn auto_takes_what_can_be_computed() {
-    let plate = on(METAL, "plate.thickness = '5 mm'\nmaterial = 'metal'");
+    let plate = on(METAL, "plate.thickness = '5 mm', material = 'metal'");
     let chosen = |set: &[&str]| {
         let set: Vec<&str> = ["model.auto={}"].into_iter().chain(set.iter().copied()).collect();
         let simulation = simulation_of(&plate, &set);

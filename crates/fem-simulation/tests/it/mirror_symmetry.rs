@@ -6,29 +6,11 @@ use fem_simulation::Simulation;
 use crate::scene::{decision_on, refused_of, simulation_of};
 
 const TWINS: &str = r#"
-[material.glass]
-density = "2390 kg/m^3"
-youngs_modulus = "63 GPa"
-poissons_ratio = 0.244
-
-[[body]]
-name = "lower"
-sphere = { diameter = "16 mm" }
-material = "glass"
-approach_speed = "0.7 m/s"
-
-[[body]]
-name = "upper"
-sphere = { diameter = "16 mm" }
-material = "glass"
-approach_speed = "-0.2 m/s"
-
-[mesh]
-contact_element_size = "60 um"
-
-[start]
-gap = "2 um"
-"#;
+    material.glass = { density = "2390 kg/m^3", youngs_modulus = "63 GPa", poissons_ratio = 0.244 }
+    body = [{ name = "lower", sphere.diameter = "16 mm", material = "glass", approach_speed = "0.7 m/s" },
+            { name = "upper", sphere.diameter = "16 mm", material = "glass", approach_speed = "-0.2 m/s" }]
+    mesh.contact_element_size = "60 um"
+    start.gap = "2 um""#;
 
 const RELAXING: &str =
     "material.glass.relaxation={acts_on='shear', terms=[{weight=0.8, decay_rate=5e3}]}";

@@ -1,7 +1,7 @@
 //! The table `[model]`: its values, faults and their places, overrides, and resolved cases.
 
-use fem_case::ModelChoice;
 use fem_case::schema::LawTable;
+use fem_case::{CondensedOptions, ModelChoice};
 use fem_collision::{Account, Collision};
 use fem_laws::{EndRule, LawFamily, LawInput};
 use fem_simulation::Simulation;
@@ -45,6 +45,10 @@ fn fault(marked: &str, message: &str, help: &str) {
 #[test]
 fn every_model_and_law_is_read() {
     assert_eq!(model("fem = {}"), ModelChoice::Fem);
+    assert_eq!(model("condensed = {}"), ModelChoice::Condensed(CondensedOptions::default()));
+    let expected = CondensedOptions { vibration_modes: 12, steps: 200, penalty_springs: true };
+    let all = "condensed = { vibration_modes = 12, steps = 200, penalty_springs = true }";
+    assert_eq!(model(all), ModelChoice::Condensed(expected));
     assert_eq!(model("hertz = {}"), ModelChoice::Hertz { finite_size: false });
     let ting = ModelChoice::Ting { finite_size: true, tolerance: 1e-6 };
     assert_eq!(model("ting = { finite_size = true, tolerance = 1e-6 }"), ting);
@@ -154,6 +158,9 @@ fn faults_point_at_their_key() {
     fault("ting = { tolerance = «\"1 m\"» }", "must be a plain number", "");
     fault("auto = { «best» = true }", "unknown key `best`", "");
     fault("condensed = { vibration_modes = «101» }", "vibration_modes is 101", "whole number");
+    fault("condensed = { vibration_modes = «-1» }", "vibration_modes is -1", "whole number");
+    fault("condensed = { vibration_modes = «1.5» }", "vibration_modes is 1.5", "whole number");
+    fault("condensed = { «mesh» = 1 }", "unknown key `mesh`", "");
     fault("condensed = { steps = «49.0» }", "steps is 49", "whole number");
     fault("condensed = { steps = «\"many\"» }", "not a whole number", "such as 12");
     fault("law = { thornton = { yield_strength = «\"1 N\"» } }", "must be a pressure", "63 GPa");

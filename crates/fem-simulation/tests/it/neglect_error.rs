@@ -58,31 +58,12 @@ fn is_as_foretold(text: &str, set: &[&str], effect: &str) {
 
 /// A ball of one material on a large sphere of another.
 const BALL: &str = r#"
-[material.hard]
-density = "2500 kg/m^3"
-youngs_modulus = "2 GPa"
-poissons_ratio = 0.3
-
-[material.soft]
-density = "1200 kg/m^3"
-youngs_modulus = "1 GPa"
-poissons_ratio = 0.3
-relaxation = { acts_on = "all", terms = [{ weight = 0.3, relaxation_time = "0.1 ms" }] }
-
-[[body]]
-name = "block"
-sphere = { diameter = "2 m" }
-material = "hard"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "soft"
-approach_speed = "0.5 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.hard = { density = "2500 kg/m^3", youngs_modulus = "2 GPa", poissons_ratio = 0.3 }
+    material.soft = { density = "1200 kg/m^3", youngs_modulus = "1 GPa", poissons_ratio = 0.3,
+        relaxation = { acts_on = "all", terms = [{ weight = 0.3, relaxation_time = "0.1 ms" }] } }
+    body = [{ name = "block", sphere.diameter = "2 m", material = "hard" },
+            { name = "ball", sphere.diameter = "10 mm", material = "soft", approach_speed = "0.5 m/s" }]
+    output.snapshots = []"#;
 
 const TING: &str = "model.ting={}";
 const CONDENSED: &str = "model.condensed={}";

@@ -9,22 +9,9 @@ use crate::scene::{ELASTIC_GLASS, simulation_of};
 
 /// Steel spheres of 5 mm at 5 m/s; real steel yields at some cm/s.
 const STEEL: &str = r#"
-[material.steel]
-density = "7850 kg/m^3"
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-
-[[body]]
-name = "lower"
-sphere = { diameter = "5 mm" }
-material = "steel"
-approach_speed = "5 m/s"
-
-[[body]]
-name = "upper"
-sphere = { diameter = "5 mm" }
-material = "steel"
-"#;
+    material.steel = { density = "7850 kg/m^3", youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+    body = [{ name = "lower", sphere.diameter = "5 mm", material = "steel", approach_speed = "5 m/s" },
+            { name = "upper", sphere.diameter = "5 mm", material = "steel" }]"#;
 
 const MODELS: [&str; 5] = [
     "model.fem={}",
@@ -189,24 +176,10 @@ const IMPACTS: [(f64, [f64; 5]); 4] = [
 ];
 
 const BALL: &str = "
-[material.metal]
-density = 1000
-youngs_modulus = 209.3e6
-poissons_ratio = 0.3
-yield_strength = 1e6
-
-[[body]]
-name = 'wall'
-wall = {}
-
-[[body]]
-name = 'ball'
-sphere = { diameter = 0.02 }
-material = 'metal'
-approach_speed = 1
-
-[model.hertz]
-";
+    material.metal = { density = 1000, youngs_modulus = 209.3e6, poissons_ratio = 0.3, yield_strength = 1e6 }
+    body = [{ name = 'wall', wall = {} },
+            { name = 'ball', sphere.diameter = 0.02, material = 'metal', approach_speed = 1 }]
+    model.hertz = {}";
 
 /// The bounds of a model without flow hold for impacts of an elastic–perfectly plastic sphere on a rigid wall.
 #[test]

@@ -7,23 +7,9 @@ use fem_simulation::results::Summary;
 use crate::scene::{collision_of, decision_on, refused_of, simulation_of, summary_of};
 
 const BALL: &str = r#"
-[material.metal]
-density = "7800 kg/m^3"
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-elastic = true
-
-[[body]]
-name = "bench"
-plate = { thickness = "5 mm" }
-material = "metal"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "metal"
-approach_speed = "1 m/s"
-"#;
+    material.metal = { density = "7800 kg/m^3", youngs_modulus = "210 GPa", poissons_ratio = 0.3, elastic = true }
+    body = [{ name = "bench", plate.thickness = "5 mm", material = "metal" },
+            { name = "ball", sphere.diameter = "10 mm", material = "metal", approach_speed = "1 m/s" }]"#;
 
 const HALF_SPACE: &str = "body.0={ name='bench', half_space={}, material='metal' }";
 const MODELS: [&str; 4] = [

@@ -9,31 +9,12 @@ use crate::scene::{case_of, collision_of};
 
 /// A soft relaxing ball and a steel one, with a ratio of stiffness of 1 to 4e4.
 const SOFT: &str = r#"
-[material.gel]
-density = "1050 kg/m^3"
-youngs_modulus = "5 MPa"
-poissons_ratio = 0.3
-relaxation = { acts_on = "all", terms = [{ weight = 0.3, relaxation_time = "1 ms" }] }
-
-[material.steel]
-density = "7850 kg/m^3"
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-
-[[body]]
-name = "anvil"
-sphere = { diameter = "30 mm" }
-material = "steel"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "20 mm" }
-material = "gel"
-approach_speed = "0.2 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.gel = { density = "1050 kg/m^3", youngs_modulus = "5 MPa", poissons_ratio = 0.3,
+        relaxation = { acts_on = "all", terms = [{ weight = 0.3, relaxation_time = "1 ms" }] } }
+    material.steel = { density = "7850 kg/m^3", youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+    body = [{ name = "anvil", sphere.diameter = "30 mm", material = "steel" },
+            { name = "ball", sphere.diameter = "20 mm", material = "gel", approach_speed = "0.2 m/s" }]
+    output.snapshots = []"#;
 
 const MODELS: [&str; 3] = ["model.fem={}", "model.condensed={}", "model.ting={}"];
 

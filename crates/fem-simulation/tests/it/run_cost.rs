@@ -6,30 +6,11 @@ use crate::scene::simulation_of;
 
 /// Two balls, stiff or soft, that relax or not.
 const BALLS: &str = r#"
-[material.a]
-density = "2500 kg/m^3"
-youngs_modulus = "60 GPa"
-poissons_ratio = 0.25
-
-[material.steel]
-density = "8000 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-
-[[body]]
-name = "lower"
-sphere = { diameter = "10 mm" }
-material = "a"
-
-[[body]]
-name = "upper"
-sphere = { diameter = "10 mm" }
-material = "a"
-approach_speed = "1 m/s"
-
-[output]
-snapshots = []
-"#;
+    material.a = { density = "2500 kg/m^3", youngs_modulus = "60 GPa", poissons_ratio = 0.25 }
+    material.steel = { density = "8000 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }
+    body = [{ name = "lower", sphere.diameter = "10 mm", material = "a" },
+            { name = "upper", sphere.diameter = "10 mm", material = "a", approach_speed = "1 m/s" }]
+    output.snapshots = []"#;
 
 const AUXETIC: &[&str] = &["material.a.poissons_ratio=-0.99"];
 const SOFT_SPRINGS: &[&str] = &["contact.penalty_factor=0.03"];

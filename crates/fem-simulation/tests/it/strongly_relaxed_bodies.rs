@@ -8,25 +8,11 @@ use crate::scene::simulation_of;
 
 /// Two spheres of 10 mm that relax much faster than their contact.
 const PAIR: &str = "
-[material.a]
-density = 1200
-youngs_modulus = '10 MPa'
-poissons_ratio = 0.4
-[material.a.relaxation]
-acts_on = 'all'
-terms = [{ weight = 0.999, decay_rate = 6e5 }]
-[[body]]
-name = 'lo'
-sphere = { diameter = '10 mm' }
-material = 'a'
-approach_speed = '0.1 m/s'
-[[body]]
-name = 'up'
-sphere = { diameter = '10 mm' }
-material = 'a'
-[output]
-snapshots = []
-";
+    material.a = { density = 1200, youngs_modulus = '10 MPa', poissons_ratio = 0.4, relaxation = { acts_on = 'all',
+        terms = [{ weight = 0.999, decay_rate = 6e5 }] } }
+    body = [{ name = 'lo', sphere.diameter = '10 mm', material = 'a', approach_speed = '0.1 m/s' },
+            { name = 'up', sphere.diameter = '10 mm', material = 'a' }]
+    output.snapshots = []";
 const FLUID: &str = "material.a.relaxation.terms=[{ weight = 1.0, decay_rate = 6e4 }]";
 const ELASTIC: &str = "material.a.relaxation.terms.0.weight=0";
 const AS_SOFT: &str = "material.a.youngs_modulus='10 kPa'";

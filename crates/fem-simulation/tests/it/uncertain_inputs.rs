@@ -6,15 +6,8 @@ use crate::scene::{GLASS, case_of, parse, summary_of};
 
 const NYLON_ON_BLOCK: &str = "
     material.nylon = { density = 1150, youngs_modulus = '2.93 GPa', poissons_ratio = 0.4 }
-    [[body]]
-    name = 'ball'
-    sphere.diameter = '10 mm'
-    material = 'nylon'
-    approach_speed = '1 m/s'
-    [[body]]
-    name = 'block'
-    half_space = {}
-    material = 'nylon'";
+    body = [{ name = 'ball', sphere.diameter = '10 mm', material = 'nylon', approach_speed = '1 m/s' },
+            { name = 'block', half_space = {}, material = 'nylon' }]";
 
 /// Elastic spheres of a material with Young's modulus E, each with its own material table.
 fn pair(set: &[&str]) -> [Option<f64>; 6] {

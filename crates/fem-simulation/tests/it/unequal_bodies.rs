@@ -7,31 +7,12 @@ use crate::scene::simulation_of;
 
 /// A slow steel ball on a thirty times larger rubber sphere.
 const BALL: &str = r#"
-[material.rubber]
-density = "950 kg/m^3"
-youngs_modulus = "1 MPa"
-poissons_ratio = 0.47
-hyperelastic = "neo-hooke"
-
-[material.steel]
-density = "7800 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-
-[[body]]
-name = "large"
-sphere = { diameter = "60 mm" }
-material = "rubber"
-
-[[body]]
-name = "small"
-sphere = { diameter = "2 mm" }
-material = "steel"
-approach_speed = "1 cm/s"
-
-[output]
-snapshots = []
-"#;
+    material.rubber = { density = "950 kg/m^3", youngs_modulus = "1 MPa", poissons_ratio = 0.47,
+        hyperelastic = "neo-hooke" }
+    material.steel = { density = "7800 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }
+    body = [{ name = "large", sphere.diameter = "60 mm", material = "rubber" },
+            { name = "small", sphere.diameter = "2 mm", material = "steel", approach_speed = "1 cm/s" }]
+    output.snapshots = []"#;
 
 /// Overrides with sizes and stiffnesses from one extreme to the other.
 const SCENES: [&[&str]; 4] = [

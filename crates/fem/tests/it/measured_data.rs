@@ -14,17 +14,6 @@ fn spheres() -> Case {
     case(BodyTable::sphere("striker", "22.2 mm", "glass"))
 }
 
-/// An unknown unit is a fault and not a missing value; empty columns are ignored.
-#[test]
-fn an_unknown_unit_is_a_fault() {
-    let read =
-        |text: &str| Restitutions::read(&Table::parse("e.csv", text).unwrap(), spheres().scene());
-    let error = read("speed,restitution\nfurlong,-\n500,0.95\n750,0.92\n").unwrap_err();
-    assert!(error.to_string().contains("speed is \"furlong\", which is not a number"), "{error}");
-    assert_eq!(error.place(), "e.csv:2");
-    assert!(read("speed,restitution,\n0.5,0.95,\n0.75,0.92,\n").unwrap().unread.is_empty());
-}
-
 #[test]
 fn contact_times_are_read_on_request() {
     let text = "speed_m_s,e,contact_time_us,humidity\n0.5,0.95,65,0.4\n";
@@ -68,6 +57,8 @@ fn faults_have_name_line_and_column() {
         ("speed_m_s,e,sigma\n1,0.9,5\n", "bad.csv:2", Some("sigma"), "sigma is 5"),
         ("diameter_1_mm,speed_m_s,e\n-3,1,0.9\n", "bad.csv:2", Some("diameter_1_mm"), "-0.003"),
         ("speed_m_s,e,uncertanty\n1,0.9,1\n", "bad.csv:1", Some("uncertanty"), "unknown column"),
+        // An unknown unit is no missing value.
+        ("speed,e\nfurlong,-\n500,0.95\n750,0.92\n", "bad.csv:2", Some("speed"), "not a number"),
     ] {
         let error = fault(&spheres(), text).unwrap_err();
         assert_eq!((error.place().as_str(), error.column.as_deref()), (place, column), "{error}");

@@ -2,13 +2,12 @@
 
 use fem::results::{CostSummary, Energy, energy_key};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
-use fem::sweep::{Members, Variations};
 use fem::{
     Account, Approach, ApproachError, BalanceSide, Body, BodyFields, BodyResult, BodyStress, Case,
-    CaseError, CaseFile, Collision, ComputedCollision, Cost, Ending, EnergyLedger, ErrorEstimate,
-    HertzImpact, HistoryRow, Material, ModelChoice, ModelSetup, Monitor, OutputRequest, Phase,
-    Progress, Quantity, Scene, Shape, ShownIn, Simulation, Snapshot, SnapshotInstant,
-    SnapshotRequest, SphereMesh, Stop, StressField, Summary, invariants, stop_advice,
+    CaseError, CaseFile, Collision, Cost, Ending, EnergyLedger, ErrorEstimate, HertzImpact,
+    HistoryRow, Material, ModelChoice, ModelSetup, Monitor, OutputRequest, Phase, Progress,
+    Quantity, Scene, Shape, ShownIn, Simulation, Snapshot, SnapshotInstant, SnapshotRequest,
+    SphereMesh, Stop, StressField, Summary, invariants, stop_advice,
 };
 
 /// A monitor that records the phases of a run and ends it after a number of reports.
@@ -119,19 +118,6 @@ fn a_run_is_stopped_and_continued_elsewhere() -> Result<(), CaseError> {
     let faster = Approach::at(0.2).unwrap();
     let collision = simulation.model().collide(&faster, &OutputRequest::quantities(), &mut ());
     assert_eq!(collision.approach.speed(), 0.2);
-    Ok(())
-}
-
-#[test]
-fn members_of_a_sweep_are_run() -> Result<(), CaseError> {
-    let case = scene_of(ModelTable::ting())?;
-    let members = Variations::of(&case, [0.1, 0.2], |file, speed: f64| {
-        file.body[1].approach_speed = Some(speed.into());
-    });
-    assert_eq!(members.n_members(), 2);
-    let shared = fem::SharedModels::default();
-    let ran: ComputedCollision = fem::sweep::Runner::new(&members, &shared).run_one(1, &mut ())?;
-    assert!(ran.summary().complete);
     Ok(())
 }
 

@@ -71,8 +71,6 @@ pub struct Pair {
     pub law: Option<HyperelasticLaw>,
     /// Yield strength of a perfectly plastic pair, Pa.
     pub yield_strength: Option<f64>,
-    /// Units of length, time and mass in m, s and kg.
-    pub units: [f64; 3],
     pub candidate_radius: f64,
     pub history_rows: usize,
     pub snapshots: SnapshotRequest,
@@ -93,7 +91,6 @@ impl Default for Pair {
             terms: &[(1.0, 1.0 / 2708.0)],
             law: None,
             yield_strength: None,
-            units: [1.0; 3],
             candidate_radius: 0.35e-3,
             history_rows: 1000,
             snapshots: SnapshotRequest::Times(Vec::new()),
@@ -127,18 +124,12 @@ impl Pair {
     }
 
     pub fn material(&self) -> Material {
-        let [length, time, mass] = self.units;
-        let pressure = mass / (length * time * time);
-        let moduli =
-            ElasticModuli::from_youngs_modulus_poissons_ratio(63e9 * pressure, 0.244).unwrap();
+        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
         let relaxation = self.relaxation.map(|acts_on| {
-            let term = |&(weight, relaxation_time): &(f64, f64)| PronyTerm {
-                weight,
-                relaxation_time: relaxation_time * time,
-            };
+            let term = |&(weight, relaxation_time)| PronyTerm { weight, relaxation_time };
             PronySeries::new(self.terms.iter().map(term).collect(), acts_on).unwrap()
         });
-        let material = Material::new(2390.0 * mass / length.powi(3), moduli, relaxation).unwrap();
+        let material = Material::new(2390.0, moduli, relaxation).unwrap();
         match self.yield_strength {
             Some(strength) => material.with_flow(FlowRule::perfect(strength).unwrap()).unwrap(),
             None => material,
@@ -146,9 +137,8 @@ impl Pair {
     }
 
     pub fn sphere(&self, body: usize) -> BodyInput {
-        let [length, ..] = self.units;
-        let [radius, size] = [self.radii[body] * length, self.element_size * length];
-        let mesh = sphere(radius, size, 0.3e-3 * length, [Side::Below, Side::Above][body]);
+        let side = [Side::Below, Side::Above][body];
+        let mesh = sphere(self.radii[body], self.element_size, 0.3e-3, side);
         BodyInput::Sphere { mesh, material: self.material() }
     }
 
@@ -164,16 +154,12 @@ impl Pair {
     }
 
     pub fn approach(&self) -> Approach {
-        let [length, time, _] = self.units;
-        let velocities = self.velocities.map(|velocity| velocity * length / time);
-        Approach::new(velocities, self.gap * length).unwrap()
+        Approach::new(self.velocities, self.gap).unwrap()
     }
 
     pub fn settings(&self) -> Settings {
-        let [length, time, mass] = self.units;
-        let stiffness =
-            self.penalty_factor * 10.0 * CONTACT_MODULUS * mass / (length * time * time);
-        let usual = settings(stiffness, self.candidate_radius * length);
+        let stiffness = self.penalty_factor * 10.0 * CONTACT_MODULUS;
+        let usual = settings(stiffness, self.candidate_radius);
         Settings { step_factor: self.step_factor, ..usual }
     }
 
@@ -192,8 +178,7 @@ impl Pair {
     }
 
     pub fn expected(&self) -> Expectation {
-        let [length, time, _] = self.units;
-        Expectation { contact_time: HERTZ_TIME * time, approach: HERTZ_APPROACH * length }
+        Expectation { contact_time: HERTZ_TIME, approach: HERTZ_APPROACH }
     }
 
     pub fn request(&self) -> OutputRequest {

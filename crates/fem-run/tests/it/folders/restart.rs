@@ -15,36 +15,14 @@ const KEPT: &str = "--checkpoint-every 0.02 --quiet";
 
 /// A ball that falls three times.
 const BALL: &str = r#"
-[material.rubber]
-density = "1100 kg/m^3"
-youngs_modulus = "4 MPa"
-poissons_ratio = 0.45
-
-[material.rubber.relaxation]
-acts_on = "shear"
-terms = [{ weight = 0.6, relaxation_time = "0.3 ms" }]
-
-[[body]]
-name = "floor"
-wall = {}
-
-[[body]]
-name = "ball"
-sphere = { diameter = "2 cm" }
-material = "rubber"
-
-[start]
-gap = "5 cm"
-
-[gravity]
-acceleration = "9.81 m/s^2"
-
-[stop]
-bounces = 3
-
-[mesh]
-contact_element_size = "0.3 mm"
-"#;
+    material.rubber = { density = "1100 kg/m^3", youngs_modulus = "4 MPa", poissons_ratio = 0.45,
+        relaxation = { acts_on = "shear", terms = [{ weight = 0.6, relaxation_time = "0.3 ms" }] } }
+    body = [{ name = "floor", wall = {} },
+            { name = "ball", sphere.diameter = "2 cm", material = "rubber" }]
+    start.gap = "5 cm"
+    gravity.acceleration = "9.81 m/s^2"
+    stop.bounces = 3
+    mesh.contact_element_size = "0.3 mm""#;
 
 /// Scenes with everything that a restart state contains: relaxation of all moduli and of shear only,
 /// springs, viscosity with the force of the previous step, half of a scene, finished contacts.

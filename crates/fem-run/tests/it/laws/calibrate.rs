@@ -242,29 +242,11 @@ fn calibrate_rejects_data_and_meshes_that_do_not_fit() {
 
 /// A polymer ball on a steel plate.
 const RIG: &str = r#"
-[material.polymer]
-density = "1200 kg/m^3"
-youngs_modulus = "3 GPa"
-poissons_ratio = 0.35
-
-[material.polymer.relaxation]
-acts_on = "all"
-terms = [{ weight = 0.2, relaxation_time = "100 us" }]
-
-[[body]]
-name = "plate"
-plate = { thickness = "5 mm" }
-material = "lib:steel"
-
-[[body]]
-name = "ball"
-sphere = { diameter = "10 mm" }
-material = "polymer"
-approach_speed = "1 m/s"
-
-[model]
-ting = { finite_size = true }
-"#;
+    material.polymer = { density = "1200 kg/m^3", youngs_modulus = "3 GPa", poissons_ratio = 0.35,
+        relaxation = { acts_on = "all", terms = [{ weight = 0.2, relaxation_time = "100 us" }] } }
+    body = [{ name = "plate", plate.thickness = "5 mm", material = "lib:steel" },
+            { name = "ball", sphere.diameter = "10 mm", material = "polymer", approach_speed = "1 m/s" }]
+    model.ting.finite_size = true"#;
 
 /// The loss of a ball on a plate is that of its material if the case has the plate, and far from it if the case has a
 /// half-space.
