@@ -259,12 +259,15 @@ impl Columns {
             (height(REBOUND_HEIGHTS, speeds.first().copied())?, Said::Height),
         ];
         let after = after.into_iter().find_map(|(column, said)| Some((vec![column?], said)));
-        let repeats = || {
-            let is_repeat = |column: &usize| is_numbered(&table.header()[*column], &RESTITUTIONS);
+        let repeats = |names: &[&str], said: Said| {
+            let is_repeat = |column: &usize| is_numbered(&table.header()[*column], names);
             let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
-            (!found.is_empty()).then_some((found, Said::Restitution))
+            (!found.is_empty()).then_some((found, said))
         };
-        let (restitutions, rebound) = match after.or_else(repeats) {
+        let after = after
+            .or_else(|| repeats(&RESTITUTIONS, Said::Restitution))
+            .or_else(|| repeats(REBOUND_HEIGHTS[0], Said::Height));
+        let (restitutions, rebound) = match after {
             Some(found) => found,
             None => (vec![table.require(&RESTITUTIONS, "restitution")?], Said::Restitution),
         };

@@ -96,8 +96,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             text += "\nThe data have no contact times: the linear models use those of Hertz.\n";
         }
         if fitted.export.spheres.len() < 2 {
-            text += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
-                     it.\n";
+            text += "\nLIGGGHTS and YADE get no file: their walls need a material or a radius.\n";
         }
         text
     })
