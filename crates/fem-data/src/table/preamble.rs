@@ -69,22 +69,10 @@ pub(super) fn without_preamble(text: &str, only_titles: bool) -> Cow<'_, str> {
     let is_of_names = |k: &usize| !separator.cells(lines[*k]).any(is_number);
     let last = above(first).filter(is_header).filter(is_of_names);
     let Some(last) = last else {
-        // Without another header, a comment with a name for each column is one, as of Netzsch or numpy.savetxt.
-        let name =
-            |line: &str| separator.cells(line).all(|cell| !cell.is_empty() && !is_number(cell));
-        let is_named = |k: &usize| {
-            let line = lines[*k].trim_start_matches('#');
-            n_cells(line, separator) == n_cells(lines[first], separator) && name(line)
+        return match above(first) {
+            None => with_commented_header(text, &lines[..=first], separator),
+            Some(_) => text.into(),
         };
-        let is_whole = above(first).is_none() && n_cells(lines[first], separator) > 1;
-        let Some(names) = (0..first).rev().find(is_named).filter(|_| is_whole) else {
-            return text.into();
-        };
-        let line = |(k, line): (usize, &str)| match k == names {
-            true => format!("{}\n", line.trim_start_matches('#').trim_start()),
-            false => format!("{line}\n"),
-        };
-        return text.lines().enumerate().map(line).collect::<String>().into();
     };
     let is_units = separator.cells(lines[last]).any(is_unit)
         && separator.cells(lines[last]).all(|cell| is_missing(cell) || is_unit(cell));
@@ -125,4 +113,24 @@ fn without_titles(text: &str) -> Cow<'_, str> {
         false => format!("{line}\n"),
     };
     text.lines().enumerate().map(commented).collect::<String>().into()
+}
+
+/// Returns the text with a header in place of a comment that has a name for each column, as of Netzsch or `numpy.savetxt`; `lines`
+/// end with the first row.
+fn with_commented_header<'t>(text: &'t str, lines: &[&str], separator: Separator) -> Cow<'t, str> {
+    let [above @ .., first] = lines else { return text.into() };
+    let names = |line: &str| line.trim_start_matches('#').trim_start().to_string();
+    let n_cells = separator.cells(first).count();
+    let is_named = |line: &&str| {
+        let line = names(line);
+        n_cells > 1
+            && separator.cells(&line).count() == n_cells
+            && separator.cells(&line).all(|cell| !cell.is_empty() && !is_number(cell))
+    };
+    let Some(header) = above.iter().rposition(|line| is_named(line)) else { return text.into() };
+    let line = |(k, line): (usize, &str)| match k == header {
+        true => names(line) + "\n",
+        false => format!("{line}\n"),
+    };
+    text.lines().enumerate().map(line).collect::<String>().into()
 }

@@ -226,6 +226,13 @@ struct Columns {
     accepted: Option<usize>,
 }
 
+/// Returns the columns of impacts that were repeated, `e1, e2`, if there are any.
+fn repeats(table: &Table, names: &[&str], said: Said) -> Option<(Vec<usize>, Said)> {
+    let is_repeat = |column: &usize| is_numbered(&table.header()[*column], names);
+    let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
+    (!found.is_empty()).then_some((found, said))
+}
+
 impl Columns {
     pub fn of(table: &Table, scene: &Scene, wanted: Wanted<'_>) -> Result<Self, DataError> {
         let swept = [0, 1].map(|body| {
@@ -259,14 +266,9 @@ impl Columns {
             (height(REBOUND_HEIGHTS, speeds.first().copied())?, Said::Height),
         ];
         let after = after.into_iter().find_map(|(column, said)| Some((vec![column?], said)));
-        let repeats = |names: &[&str], said: Said| {
-            let is_repeat = |column: &usize| is_numbered(&table.header()[*column], names);
-            let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
-            (!found.is_empty()).then_some((found, said))
-        };
         let after = after
-            .or_else(|| repeats(&RESTITUTIONS, Said::Restitution))
-            .or_else(|| repeats(REBOUND_HEIGHTS[0], Said::Height));
+            .or_else(|| repeats(table, &RESTITUTIONS, Said::Restitution))
+            .or_else(|| repeats(table, REBOUND_HEIGHTS[0], Said::Height));
         let (restitutions, rebound) = match after {
             Some(found) => found,
             None => (vec![table.require(&RESTITUTIONS, "restitution")?], Said::Restitution),
