@@ -63,6 +63,7 @@ fn key_of(file: &CaseFile, path: &[&str]) -> String {
     // A material may have a yield strength beside its density, too.
     let last = match path {
         ["material", _, "flow", rest @ ..] if !rest.is_empty() => path[2..].join("."),
+        ["body", _] => path.join("."),
         _ => path.last().copied().unwrap_or_default().to_string(),
     };
     let tree = Table::try_from(file).unwrap_or_default();

@@ -187,12 +187,35 @@ pub(super) const SPEEDS: [&str; 18] = [
 ];
 /// Names of columns of heights from which a body falls on the other one, most certain first.
 pub(crate) const DROP_HEIGHTS: [&[&str]; 2] = [
-    &["drop_height", "release_height", "initial_height", "fall_height", "h0", "h_0", "h_drop"],
+    &[
+        "drop_height",
+        "release_height",
+        "initial_height",
+        "start_height",
+        "fall_height",
+        "height_of_fall",
+        "height_of_drop",
+        "h0",
+        "h_0",
+        "h_drop",
+    ],
     &["height", "h", "h1", "h_1"],
 ];
 /// Names of columns of heights to which it rebounds.
 pub(super) const REBOUND_HEIGHTS: [&[&str]; 2] = [
-    &["rebound_height", "bounce_height", "return_height", "final_height", "h_rebound", "h2", "h_2"],
+    &[
+        "rebound_height",
+        "bounce_height",
+        "height_of_bounce",
+        "height_of_rebound",
+        "rebound",
+        "bounce",
+        "return_height",
+        "final_height",
+        "h_rebound",
+        "h2",
+        "h_2",
+    ],
     &["h1", "h_1"],
 ];
 /// Names of columns of speeds after impacts.

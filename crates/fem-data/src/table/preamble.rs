@@ -53,7 +53,7 @@ pub(super) fn without_preamble(text: &str, only_titles: bool) -> Cow<'_, str> {
             && separator.cells(lines[*k]).any(is_number)
             && n_next.is_none_or(|n| n <= 1 || n == n_cells(lines[*k], separator))
     }) else {
-        return text.into();
+        return without_titles(text);
     };
     let separator = Separator::of(lines[first]);
     // Rows may end in empty cells, and a header in the name of a column of comments.
@@ -68,7 +68,12 @@ pub(super) fn without_preamble(text: &str, only_titles: bool) -> Cow<'_, str> {
     };
     let is_of_names = |k: &usize| !separator.cells(lines[*k]).any(is_number);
     let last = above(first).filter(is_header).filter(is_of_names);
-    let Some(last) = last else { return text.into() };
+    let Some(last) = last else {
+        return match above(first) {
+            None => with_commented_header(text, &lines[..=first], separator),
+            Some(_) => text.into(),
+        };
+    };
     let is_units = separator.cells(lines[last]).any(is_unit)
         && separator.cells(lines[last]).all(|cell| is_missing(cell) || is_unit(cell));
     let names = above(last).filter(|above| is_units && is_header(above));
@@ -84,4 +89,48 @@ pub(super) fn without_preamble(text: &str, only_titles: bool) -> Cow<'_, str> {
         false => format!("{line}\n"),
     };
     text.lines().enumerate().map(commented).collect::<String>().into()
+}
+
+/// Returns the text with the lines of a title made comments: those with fewer cells above a header of names, where rows begin with
+/// a name.
+fn without_titles(text: &str) -> Cow<'_, str> {
+    let n_cells = |line: &str, separator: Separator| separator.cells(line).count();
+    let is_header = |line: &str| {
+        let separator = Separator::of(line);
+        let is_split = separator != Separator::Blanks && n_cells(line, separator) > 2;
+        is_split && separator.cells(line).all(|cell| !cell.is_empty() && !is_number(cell))
+    };
+    let Some((n_titles, header)) = text.lines().enumerate().find(|line| is_header(line.1)) else {
+        return text.into();
+    };
+    let separator = Separator::of(header);
+    let is_title = |line: &str| n_cells(line, separator) < n_cells(header, separator);
+    if n_titles == 0 || !text.lines().take(n_titles).all(is_title) {
+        return text.into();
+    }
+    let commented = |(k, line): (usize, &str)| match k < n_titles {
+        true => format!("#{line}\n"),
+        false => format!("{line}\n"),
+    };
+    text.lines().enumerate().map(commented).collect::<String>().into()
+}
+
+/// Returns the text with a header in place of a comment that has a name for each column, as of Netzsch or `numpy.savetxt`; `lines`
+/// end with the first row.
+fn with_commented_header<'t>(text: &'t str, lines: &[&str], separator: Separator) -> Cow<'t, str> {
+    let [above @ .., first] = lines else { return text.into() };
+    let names = |line: &str| line.trim_start_matches('#').trim_start().to_string();
+    let n_cells = separator.cells(first).count();
+    let is_named = |line: &&str| {
+        let line = names(line);
+        n_cells > 1
+            && separator.cells(&line).count() == n_cells
+            && separator.cells(&line).all(|cell| !cell.is_empty() && !is_number(cell))
+    };
+    let Some(header) = above.iter().rposition(|line| is_named(line)) else { return text.into() };
+    let line = |(k, line): (usize, &str)| match k == header {
+        true => names(line) + "\n",
+        false => format!("{line}\n"),
+    };
+    text.lines().enumerate().map(line).collect::<String>().into()
 }

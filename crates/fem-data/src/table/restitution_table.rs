@@ -226,6 +226,13 @@ struct Columns {
     accepted: Option<usize>,
 }
 
+/// Returns the columns of impacts that were repeated, `e1, e2`, if there are any.
+fn repeats(table: &Table, names: &[&str], said: Said) -> Option<(Vec<usize>, Said)> {
+    let is_repeat = |column: &usize| is_numbered(&table.header()[*column], names);
+    let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
+    (!found.is_empty()).then_some((found, said))
+}
+
 impl Columns {
     pub fn of(table: &Table, scene: &Scene, wanted: Wanted<'_>) -> Result<Self, DataError> {
         let swept = [0, 1].map(|body| {
@@ -259,12 +266,10 @@ impl Columns {
             (height(REBOUND_HEIGHTS, speeds.first().copied())?, Said::Height),
         ];
         let after = after.into_iter().find_map(|(column, said)| Some((vec![column?], said)));
-        let repeats = || {
-            let is_repeat = |column: &usize| is_numbered(&table.header()[*column], &RESTITUTIONS);
-            let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
-            (!found.is_empty()).then_some((found, Said::Restitution))
-        };
-        let (restitutions, rebound) = match after.or_else(repeats) {
+        let after = after
+            .or_else(|| repeats(table, &RESTITUTIONS, Said::Restitution))
+            .or_else(|| repeats(table, REBOUND_HEIGHTS[0], Said::Height));
+        let (restitutions, rebound) = match after {
             Some(found) => found,
             None => (vec![table.require(&RESTITUTIONS, "restitution")?], Said::Restitution),
         };

@@ -200,6 +200,7 @@ fn heights_and_speeds_after_give_restitutions() {
     let of_heights = 0.5 * e * (0.5f64 / 49.6).hypot(0.25 / 65.0);
     for (text, speed, restitution, uncertainty) in [
         ("drop height (cm),rebound height (cm)\n65,49.6\n55,42.1\n", fall(0.65), e, None),
+        ("Height of fall [cm],Height of bounce [cm]\n65,49.6\n55,42.1\n", fall(0.65), e, None),
         ("h0 [m],h1 [m]\n0.65,0.496\n0.55,0.421\n", fall(0.65), e, None),
         ("h1 [m],h2 [m]\n0.65,0.496\n0.55,0.421\n", fall(0.65), e, None),
         (
@@ -231,6 +232,14 @@ fn heights_and_speeds_after_give_restitutions() {
     let points: Vec<(f64, f64)> = data.points.iter().map(|it| (it.speed, it.restitution)).collect();
     assert_eq!(points, [(1.0, 0.9), (1.0, 0.91), (1.0, 0.89), (2.0, 0.8), (2.0, 0.81)]);
     assert_eq!((&data.lines[..], data.n_left_out), (&[2, 2, 2, 3, 3][..], 1));
+    // A class writes a title, a name per row and a mean.
+    let class = "Bouncing ball, 10b\n\nGroup;Drop height (cm);Rebound 1 (cm);Rebound 2 (cm)\nAnna;65;49,6;49,6\nBen;65;49,6;\n\
+                 Mean;65;49,6;49,6\n";
+    let data = Restitutions::read(&Table::parse("e.csv", class).unwrap(), ball().scene()).unwrap();
+    assert_eq!(data.points.len(), 3);
+    for point in &data.points {
+        assert!((point.restitution - e).abs() + (point.speed - fall(0.65)).abs() < 1e-12);
+    }
 }
 
 /// A restitution above 1 is warned of in the words of the cradle, with its line; above 1.2 it is an error.

@@ -595,7 +595,15 @@ fn layouts_of_instruments_are_read() {
         "Project:\tPMMA\nInterval and data points:\t1\t2\n{interval}\t1\t100\t1.0E6\t2.0E5\tMe\n\t2\t10\t8.0E5\t1.8E5\tMe\n\nInterval and \
          data points:\t2\t1\n{interval}\t1\t1\t6.0E5\t1.6E5\tMe\n"
     );
+    // Of Netzsch's Proteus, whose header is a comment, and of Mettler's STARe.
+    let netzsch = "#EXPORTTYPE:DATA ALL\r\n#FORMAT:NETZSCH5\r\n#DECIMAL:COMMA\r\n#SEPARATOR:SEMICOLON\r\n#MTYPE:DMA\r\n\
+        #SAMPLE LENGTH /mm:20,00\r\n#RANGE:23,0°C/0,0(K/min)/23,0°C\r\n\r\n##Temp./°C;Time/min;Freq./Hz;E'/MPa;E''/MPa;tan(delta)\r\n  \
+        23,00; 0,50;0,1;2,0E3;1,0E2;0,05\r\n  23,00; 1,50;10,0;2,4E3;9,6E1;0,04\r\n";
+    let mettler = "Curve Name:\n  PA6\nCurve Values:\n Index  t  Ts  f  E'  E''\n []  [s]  [°C]  [Hz]  [MPa]  [MPa]\n 0  10  23.0  0.1  \
+        2000  100\n 1  60  23.0  10  2400  96\n";
     for (text, expected) in [
+        (netzsch, vec![(at(0.1), 2e9), (at(10.0), 2.4e9)]),
+        (mettler, vec![(at(0.1), 2e9), (at(10.0), 2.4e9)]),
         (steps, vec![(6.25, 1.2e9), (62.5, 1.3e9), (6.25, 0.9e9)]),
         (&intervals, vec![(100.0, 1e6), (10.0, 0.8e6), (1.0, 0.6e6)]),
         (

@@ -92,33 +92,36 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         output.write("accuracy.svg", svg);
     }
     output.write("accuracy.md", page);
-    output.publish(&json(&result), |_| {
-        let mut text = format!("{}\n\n", one_line(result.title));
-        for Advice { sentence, overrides } in advice(&result) {
-            text += &(wrapped(&sentence) + "\n");
-            // As a shell reads it, also if it is copied whole.
-            let mut length = 0;
-            for option in overrides {
-                length += option.len() + 1;
-                text += match length == option.len() + 1 {
-                    true => "   ",
-                    false if length <= 72 => "",
-                    false => {
-                        length = option.len() + 1;
-                        " \\\n   "
-                    }
-                };
-                text += &format!(" {option}");
-            }
-            text += if length > 0 { "\n" } else { "" };
+    output.publish(&json(&result), |_| text(&result, arguments.verbose))
+}
+
+/// Returns the text on stdout: what to choose, and the tables.
+fn text(result: &AccuracyResult<'_>, is_whole: bool) -> String {
+    let mut text = format!("{}\n\n", one_line(result.title));
+    for Advice { sentence, overrides } in advice(result) {
+        text += &(wrapped(&sentence) + "\n");
+        // As a shell reads it, also if it is copied whole.
+        let mut length = 0;
+        for option in overrides {
+            length += option.len() + 1;
+            text += match length == option.len() + 1 {
+                true => "   ",
+                false if length <= 72 => "",
+                false => {
+                    length = option.len() + 1;
+                    " \\\n   "
+                }
+            };
+            text += &format!(" {option}");
         }
-        for part in terminal_tables(&result, arguments.verbose) {
-            let [head, rows @ ..] = &part.rows[..] else { continue };
-            let rows = headed(&head.join("|>"), rows);
-            text += &format!("\n{}\n{}\n", part.heading, rows.trim_end());
-        }
-        text
-    })
+        text += if length > 0 { "\n" } else { "" };
+    }
+    for part in terminal_tables(result, is_whole) {
+        let [head, rows @ ..] = &part.rows[..] else { continue };
+        let rows = headed(&head.join("|>"), rows);
+        text += &format!("\n{}\n{}\n", part.heading, rows.trim_end());
+    }
+    text
 }
 
 fn announce(case: &str, variants: &Variants, budget: f64) {

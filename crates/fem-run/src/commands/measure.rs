@@ -273,10 +273,12 @@ fn of_bounces(bounces: &BounceTimes, rig: &Rig) -> String {
     let uncertainty = two_digits(bounces.time_uncertainty, "s");
     let mut text = format!("standard uncertainty of an instant: {uncertainty}, {source}\n");
     if rig.contact_time.is_none() {
-        let change = 1e-4 * bounces.contact_time_slope;
-        text += &format!(
-            "contact time neglected: 100 µs would change the last restitution by {change:.1e}\n"
-        );
+        text += &match 1e-4 * bounces.contact_time_slope {
+            0.0 => "contact time neglected: --contact-time includes it\n".to_string(),
+            change => format!(
+                "contact time neglected: 100 µs would change the last restitution by {change:.1e}\n"
+            ),
+        };
     }
     if rig.diameter.is_none() {
         text += DRAG_NEGLECTED;

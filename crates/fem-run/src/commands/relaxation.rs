@@ -26,6 +26,9 @@ const TABLE: OwnedFileKind = OwnedFileKind {
     option: "--out",
 };
 
+/// Most rows of a table that is printed without -v.
+const MOST_ROWS: usize = 4;
+
 /// Turn moduli over frequency or time into a Prony series
 ///
 /// The data are a CSV file of dynamic mechanical analysis, frequency with storage and loss modulus or tan delta, or of a relaxation
@@ -58,6 +61,9 @@ pub struct Arguments {
     /// Poisson's ratio of the material, for its table
     #[arg(long, value_name = "NUMBER", value_parser = parse_share, conflicts_with = "bulk_modulus")]
     poissons_ratio: Option<f64>,
+    /// Print everything: all temperatures and terms
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(flatten)]
     columns: ColumnArguments,
     #[command(flatten)]
@@ -123,7 +129,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             let other = other_temperature(&found);
             format!("\n{material}relaxation = {{ file = \"{path}\" }}\n{other}")
         });
-        answer(&found) + &shifts(&found) + &terms(&found) + &table
+        let most = if arguments.verbose { usize::MAX } else { MOST_ROWS };
+        answer(&found) + &shifts(&found, most) + &terms(&found, most) + &table
     })
 }
 
@@ -172,8 +179,8 @@ fn answer(found: &FoundRelaxation) -> String {
         + "\n"
 }
 
-/// Returns the table of shift factors, with the laws that were fitted to them.
-fn shifts(found: &FoundRelaxation) -> String {
+/// Returns the table of shift factors, if it has no more than `most` rows, with the laws that were fitted to them.
+fn shifts(found: &FoundRelaxation, most: usize) -> String {
     let Some(superposition) = &found.superposition else { return String::new() };
     let log10 = |ln: f64| ln / std::f64::consts::LN_10;
     let celsius = |kelvin: f64| format!("{:.1} °C", kelvin - ZERO_CELSIUS);
@@ -194,7 +201,13 @@ fn shifts(found: &FoundRelaxation) -> String {
             .map(|kelvin| (*kelvin, [celsius(*kelvin), "not determined".to_string()])),
     );
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut text = headed(">temperature|>log10 a_T", rows.into_iter().map(|(_, row)| row)) + "\n";
+    let mut text = match &rows[..] {
+        [first, .., last] if rows.len() > most => {
+            let n = rows.len();
+            format!("{n} temperatures, {} to {}; -v lists them\n", first.1[0], last.1[0])
+        }
+        _ => headed(">temperature|>log10 a_T", rows.into_iter().map(|(_, row)| row)) + "\n",
+    };
     let measured = |value: f64, uncertainty: f64, unit: &str| {
         show_measured(Measured { value, uncertainty }, unit)
     };
@@ -229,8 +242,14 @@ fn other_temperature(found: &FoundRelaxation) -> String {
     })
 }
 
-/// Returns the table of terms.
-fn terms(found: &FoundRelaxation) -> String {
+/// Returns the table of terms, if it has no more than `most` rows.
+fn terms(found: &FoundRelaxation, most: usize) -> String {
+    if let [first, .., last] = &found.series.terms[..]
+        && found.series.terms.len() > most
+    {
+        let [first, last] = [first, last].map(|term| show(term.relaxation_time, "s"));
+        return format!("relaxation times: {first} to {last}; -v lists them\n");
+    }
     let whole = found.series.instantaneous_modulus();
     let row = |term: &fem::relaxation::FittedTerm| {
         let [value, uncertainty] = [term.modulus, term.uncertainty].map(|it| it / whole);

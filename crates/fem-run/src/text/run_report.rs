@@ -515,12 +515,12 @@ pub fn models(considered: &[ModelCandidate]) -> String {
             considered.error;
         let [restitution, time, force] =
             changes(&NeglectError { restitution, contact_time_s, peak_force_n });
-        let pressure = change(peak_pressure_pa, &|change| show(change, "Pa"));
-        let mark = if considered.chosen { "chosen" } else { "" };
-        let model = considered.model.to_string();
-        [mark.to_string(), model, restitution, time, force, pressure, considered.reason.clone()]
+        let pressure = change(peak_pressure_pa, &|change| two_digits(change, "Pa"));
+        let mark = if considered.chosen { "chosen: " } else { "" };
+        let model = considered.model.replace(" = {}", "").replace(" = { ", ", ").replace(" }", "");
+        [model, restitution, time, force, pressure, format!("{mark}{}", considered.reason)]
     };
-    let header = "|model|>restitution|>contact time|>peak force|>peak pressure|";
+    let header = "model|>restitution|>time|>force|>pressure|";
     headed(header, considered.iter().map(row))
 }
 
@@ -528,9 +528,14 @@ pub fn changes(changes: &NeglectError) -> [String; 3] {
     let NeglectError { restitution, contact_time_s, peak_force_n } = *changes;
     [
         change(restitution, &|change| number(change, 2)),
-        change(contact_time_s, &|change| show(change, "s")),
-        change(peak_force_n, &|change| show(change, "N")),
+        change(contact_time_s, &|change| two_digits(change, "s")),
+        change(peak_force_n, &|change| two_digits(change, "N")),
     ]
+}
+
+/// Returns an estimate with two digits in a fitting unit.
+fn two_digits(value: f64, unit: &str) -> String {
+    Unit::fitting(value, unit).with_digits(2).show(value)
 }
 
 fn change(change: Option<f64>, show: &dyn Fn(f64) -> String) -> String {

@@ -65,8 +65,8 @@ pub fn wrapped(text: &str) -> String {
 
 /// Returns a text whose lines break between words at the width of the terminal, if there is one, and are indented where one goes on.
 pub fn hanging(text: &str) -> String {
-    let width = Table::new().width().map(usize::from);
-    width.map_or(text.to_string(), |width| wrapped_at(width, "    ", text))
+    let Some(width) = Table::new().width().map(usize::from) else { return text.to_string() };
+    text.split_inclusive('\n').map(|line| wrapped_at(width, "    ", line)).collect()
 }
 
 /// Returns a text whose lines have at most this width where words allow it.

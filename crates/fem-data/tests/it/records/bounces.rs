@@ -208,6 +208,14 @@ fn bad_instants_do_not_spoil_the_others() {
         "{:?}",
         found.warnings
     );
+    // Eight instants suffice: the sixth is 40 ms late, and the others scatter by 1 ms.
+    let times = [0.5, 1.1019, 1.6121, 2.0455, 2.4147, 2.769, 2.9952, 3.2221];
+    let found = bounces(&list(times), &Rig::default());
+    assert!(found.warnings[0].contains("the instant 2.7690 s is left out"), "{:?}", found.warnings);
+    for impact in &found.impacts {
+        let e = impact.restitution;
+        assert!((e.value - 0.85).abs() < 3.0 * e.uncertainty && e.uncertainty < 0.01, "{impact:?}");
+    }
 }
 
 /// A record of two drops, with a pause of any length between them and a click before the first, has the restitutions of both, and the

@@ -130,8 +130,7 @@ fn exported(
         shown += "\nThe data have no contact times: the linear models use those of Hertz.\n";
     }
     if fitted.export.spheres.len() < 2 {
-        shown += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
-                  it.\n";
+        shown += "\nLIGGGHTS and YADE get no file: their walls need a material or a radius.\n";
     }
     let numbers = fitted.numbers(&name, &snippets);
     Ok(Exported { warnings, numbers, table: None, texts, fitted: Some(fitted), shown })

@@ -118,13 +118,14 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
         ]
     };
     let n = export.grains.len();
-    format!(
-        "{n} {}, {} pairs; one e per pair for all speeds, valid where its error is at most {}\n\n{}",
+    let heading = format!(
+        "{n} {}, {} pairs; one e per pair for all speeds, valid where its error is at most {}",
         if n == 1 { "grain" } else { "grains" },
         rows.len(),
-        export.tolerance,
-        headed("first|second|>e|valid from, to|>worst error", rows.iter().map(row))
-    )
+        export.tolerance
+    );
+    let table = headed("first|second|>e|valid from, to|>worst error", rows.iter().map(row));
+    format!("{}\n\n{table}", hanging(&heading))
 }
 
 /// Returns `pairs.csv`, one row per pair with the input of each code.

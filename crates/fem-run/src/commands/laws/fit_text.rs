@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use fem::fit::cradle::Measured;
 use fem::fit::{Estimate, Fit, InputPart, Model, Profile, Robustness};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem::measured::Restitutions;
@@ -14,7 +15,7 @@ use fem_laws::{LawFamily, LawParameter};
 use fem_report::law_figures::{MAX_RANKED, evidence};
 
 use crate::text::run_report::Detail;
-use crate::text::{hanging, headed, one_line, show_value, shown};
+use crate::text::{hanging, headed, one_line, show_measured, show_value, shown};
 
 /// Largest number of points that a text lists.
 const MOST_LISTED: usize = 6;
@@ -40,16 +41,18 @@ pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
 
 /// Returns a value with its standard error in one unit, `569 ± 197 µs`.
 pub fn with_error(value: f64, error: Option<f64>, unit: &str) -> String {
-    let (unit, scale) = match takes_prefix(unit) {
-        true => {
-            let fitting = Unit::fitting(value, unit);
-            (fitting.symbol().to_string(), fitting.scaled(1.0))
-        }
-        false => (unit.to_string(), 1.0),
-    };
-    let shown = |value: f64| number(scale * value, 3);
-    let error = error.map_or(String::new(), |error| format!(" ± {}", shown(error)));
-    format!("{}{error} {unit}", shown(value)).trim_end().to_string()
+    if takes_prefix(unit)
+        && let Some(error) = error
+    {
+        let fitting = Unit::fitting(value, unit);
+        let [value, uncertainty] = [value, error].map(|it| fitting.scaled(it));
+        return show_measured(Measured { value, uncertainty }, fitting.symbol());
+    }
+    let error = error.map_or(String::new(), |error| format!(" ± {}", number(error, 2)));
+    match takes_prefix(unit) {
+        true => show(value, unit),
+        false => format!("{}{error} {unit}", number(value, 3)).trim_end().to_string(),
+    }
 }
 
 /// Returns parameters and errors of the fitted law, and a line for each compared law that `ranked` does not list.
@@ -57,7 +60,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw, ranked: Option<&LawRanking
     let LawFit { problem, fit, .. } = fitted;
     let (model, points) = (problem.model, problem.points);
     let (slowest, fastest) = fitted.data.speeds();
-    let mut text = format!(
+    let mut text = hanging(&format!(
         "{}, contact ends at {}\n{} of {}, {} to {}\n",
         model.family().name(),
         End::from(model.end_rule()).word().replace('_', " "),
@@ -65,7 +68,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw, ranked: Option<&LawRanking
         fitted.data.name,
         show(slowest, "m/s"),
         show(fastest, "m/s"),
-    );
+    ));
     text += &parameters(fitted, law);
     text += "\n";
     text += &errors_by_inputs(fitted);

@@ -73,9 +73,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let parts = match parts.is_empty() {
         true => String::new(),
-        false => {
-            "\n".to_string() + &headed("uncertain input|law|parameter|>by its uncertainty", parts)
-        }
+        false => "\n".to_string() + &headed("uncertain input|law|parameter|>change", parts),
     };
     standard_output::print(&format!(
         "restitution {} at {}\n\n{}{parts}{notes}",

@@ -98,7 +98,7 @@ fn a_yield_strength_comes_back_from_restitutions() {
     let e = data[6]["restitution"].as_f64().unwrap();
     let ran =
         place.succeed(format!("invert case.toml --law mean_pressure --restitution {e}").as_str());
-    ran.prints("yield_strength  1 ± 0.0");
+    ran.prints("yield_strength  1.000 ± 0.0");
 
     let calibrate = "calibrate case.toml --data e.csv --model ting --terms 2";
     let ran = place.fails(2, calibrate);

@@ -233,7 +233,7 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     let wall = "body.1={name='floor',wall={}}";
     place
         .succeed(["export", "case.toml", "--set", wall, "--out", "wall"])
-        .prints("not written for LIGGGHTS and YADE");
+        .prints("LIGGGHTS and YADE get no file");
     assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 10);
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
         .replace("[[body]]\nname = \"striker\"", "[material.other]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n\n[[body]]\nname = \"striker\""));
