@@ -127,7 +127,7 @@ fn with_commented_header<'t>(text: &'t str, lines: &[&str], separator: Separator
             && separator.cells(&line).count() == n_cells
             && separator.cells(&line).all(|cell| !cell.is_empty() && !is_number(cell))
     };
-    let Some(header) = above.iter().rposition(|line| is_named(line)) else { return text.into() };
+    let Some(header) = above.iter().rposition(is_named) else { return text.into() };
     let line = |(k, line): (usize, &str)| match k == header {
         true => names(line) + "\n",
         false => format!("{line}\n"),
