@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
+use fem::sweep::{Checked, KeyNumbers, Member, check_some, load};
 use fem::{WarningKinds, digest_of};
 use fem_case::{CaseFile, Sweep};
 use fem_report::sweep::FigureChoice;
@@ -16,7 +16,7 @@ use crate::progress::interrupt::Interrupt;
 use crate::result_folder::Origin;
 use crate::sweep::{
     Collector, Manifest, Shard, ShardFilter, SlurmBatch, SlurmOptions, SweepCost, SweepFolder,
-    SweepJob, SweepOutcome, announce, conclude, report, run_members, status, warning_lines,
+    SweepJob, announce, conclude, report, run_members, status, warning_lines,
 };
 use crate::text::failure::Failure;
 use crate::text::standard_output;
@@ -103,10 +103,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         pool: &pool,
         expected: OnceCell::new(),
     };
-    match arguments.shard {
-        Some(shard) if arguments.no_merge => work.compute_shard(shard),
-        shard => work.compute(shard.unwrap_or(Shard::WHOLE)),
-    }
+    work.compute(arguments.shard.unwrap_or(Shard::WHOLE))
 }
 
 /// Returns `runs/<name>`, or a folder next to it if that holds another sweep.
@@ -132,36 +129,39 @@ impl Work<'_> {
         Manifest { sweep, members, set: &arguments.set, made_from, source }
     }
 
-    /// Computes a shard, usually the whole, and then writes table and figure of all members that are done.
+    /// Computes a shard, usually the whole, and then writes table and figure of all members that are done, unless that is left to a later
+    /// merge: then no other member is read.
     fn compute(&self, shard: Shard) -> Result<(), Failure> {
         let Self { arguments, sweep, pool, .. } = self;
-        let mut folder = self.folder(ShardFilter::All);
+        let (places, filter) = match arguments.no_merge {
+            true => (shard.places(sweep.n_members()), ShardFilter::Shard(shard)),
+            false => (Shard::WHOLE.places(sweep.n_members()), ShardFilter::All),
+        };
+        let mut folder = self.folder(filter);
         folder.check()?;
         let mut numbers = KeyNumbers::new(sweep);
-        let mut checking = CheckProgress::new(sweep.n_members(), arguments.quiet);
+        let mut checking = CheckProgress::new(places.len(), arguments.quiet);
         let see = |member: &Member, case: &CaseFile| {
             checking.tick();
             numbers.see(sweep, member.index, case);
         };
+        let is_own = |index: usize| shard.has(index);
         let is_done = |member: &Member| folder.has(&member.identity(), sweep.keep);
-        let checked = pool.install(|| check(*sweep, |index| shard.has(index), is_done, see))?;
+        let checked = pool.install(|| check_some(*sweep, &places, is_own, is_done, see))?;
         let Checked { members, left, .. } = &checked;
-        let choice = FigureChoice::of(sweep, &numbers)?;
-        let n_own = shard.places(members.len()).len();
+        let merges = !arguments.no_merge;
+        let choice = merges.then(|| FigureChoice::of(sweep, &numbers)).transpose()?;
+        let n_own = shard.places(sweep.n_members()).len();
         if arguments.dry_run {
             self.announce(&checked, n_own);
             return Ok(());
         }
-        let batch = match arguments.slurm.options() {
-            Some(options) => {
-                Some(SlurmBatch::of(sweep, &checked, self.expected(&checked), options)?)
-            }
-            None => None,
-        };
+        let batch = |options| SlurmBatch::of(sweep, &checked, self.expected(&checked), options);
+        let batch = arguments.slurm.options().map(batch).transpose()?;
         // Until here a signal ends the process at once: nothing is kept.
         let interrupt = Interrupt::listen();
         let mark = self.manifest(members);
-        folder.claim(|file| mark.write(file))?;
+        folder.claim(merges, |file| mark.write(file))?;
         if let Some(batch) = batch {
             return self.hand_over(&batch, &folder, &checked);
         }
@@ -170,14 +170,13 @@ impl Work<'_> {
             self.announce(&checked, n_own);
             ran = run_members(&self.job(&folder, members, shard, &interrupt), left);
         }
-        let (numbers, choice) = (&numbers, &choice);
-        let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
-        let collected = collector.collect(|index| shard.has(index))?;
+        let (numbers, folder) = (&numbers, &mut folder);
+        let mut collector = Collector { sweep, members, folder, numbers, choice: choice.as_ref() };
+        let collected = collector.collect(is_own)?;
         ran?;
         standard_output::warn(warning_lines(&collected.warnings, sweep, &checked.warnings));
-        if !arguments.quiet {
-            let text = report(sweep, &collected, members.len(), folder.path());
-            standard_output::print(&text)?;
+        if !arguments.quiet && merges {
+            standard_output::print(&report(sweep, &collected, members.len(), self.out))?;
         }
         if arguments.merge && collected.n_done < n_own {
             let message = format!("{} of {n_own} members are done", collected.n_done);
@@ -186,37 +185,6 @@ impl Work<'_> {
             return Err(Failure::failed(message).with_help(help));
         }
         conclude(&collected, n_own, interrupt.is_requested())
-    }
-
-    /// Computes a shard and reads no other member.
-    fn compute_shard(&self, shard: Shard) -> Result<(), Failure> {
-        let Self { arguments, sweep, pool, .. } = self;
-        let mut folder = self.folder(ShardFilter::Shard(shard));
-        folder.check()?;
-        let places = shard.places(sweep.n_members());
-        let mut checking = CheckProgress::new(places.len(), arguments.quiet);
-        let see = |_: &Member, _: &CaseFile| checking.tick();
-        let is_done = |member: &Member| folder.has(&member.identity(), sweep.keep);
-        let checked = pool.install(|| check_some(*sweep, &places, |_| true, is_done, see))?;
-        self.announce(&checked, places.len());
-        if arguments.dry_run {
-            return Ok(());
-        }
-        let interrupt = Interrupt::listen();
-        let mark = self.manifest(&checked.members);
-        folder.join(|file| mark.write(file))?;
-        run_members(&self.job(&folder, &checked.members, shard, &interrupt), &checked.left)?;
-        folder.refresh();
-        let mut collected = SweepOutcome::default();
-        let identities = checked.members.iter().map(Member::identity);
-        for (member, summary) in checked.members.iter().zip(folder.summaries(identities)) {
-            if let Some(summary) = summary {
-                let row = Row::new(member, sweep.values(member.index), summary);
-                collected.take(row, sweep, true);
-            }
-        }
-        standard_output::warn(warning_lines(&collected.warnings, sweep, &checked.warnings));
-        conclude(&collected, places.len(), interrupt.is_requested())
     }
 
     fn hand_over(

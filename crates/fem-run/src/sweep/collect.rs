@@ -6,7 +6,7 @@
 use std::io;
 
 use fem::WarningKinds;
-use fem::sweep::{Columns, KeyNumbers, Member, NumberColumn, Row, SWEEP_FILE, sweep_csv};
+use fem::sweep::{Columns, KeyNumbers, Member, Row, SWEEP_FILE, sweep_csv};
 use fem_case::Sweep;
 use fem_report::sweep::{FigureChoice, FigurePoint, sweep_figure};
 use serde_json::Value;
@@ -45,11 +45,12 @@ pub struct Collector<'a> {
     pub members: &'a [Member],
     pub folder: &'a mut SweepFolder,
     pub numbers: &'a KeyNumbers,
-    pub choice: &'a FigureChoice,
+    /// The columns of the figure; without it neither table nor figure is written.
+    pub choice: Option<&'a FigureChoice>,
 }
 
 impl Collector<'_> {
-    /// Writes table and figure of the members that are done and returns what is known of them; `is_own`
+    /// Writes table and figure of the members that are done, if there is a choice, and returns what is known of them; `is_own`
     /// selects the members of this process.
     ///
     /// Another process may finish a member after this one has read the folder, and write its table before
@@ -58,7 +59,8 @@ impl Collector<'_> {
         loop {
             self.folder.refresh();
             let look = self.look(&is_own);
-            self.write(&look)?;
+            let Some(choice) = self.choice else { return Ok(look.collected) };
+            self.write(&look, choice)?;
             self.folder.refresh();
             let missing = self.members.iter().filter(|member| !look.is_there[member.index]);
             if !self.summaries(missing).any(|summary| summary.is_some()) {
@@ -70,23 +72,24 @@ impl Collector<'_> {
     fn look(&self, is_own: &impl Fn(usize) -> bool) -> MemberScan {
         let mut look = MemberScan {
             collected: SweepOutcome::default(),
-            is_there: vec![false; self.members.len()],
+            is_there: vec![false; self.sweep.n_members()],
             columns: Columns::default(),
             points: Vec::new(),
             n_failed: 0,
         };
         for row in self.rows(self.members.iter()) {
-            let member = &self.members[row.index];
-            look.is_there[member.index] = true;
+            look.is_there[row.index] = true;
             look.columns.see(&row.summary);
             look.n_failed += usize::from(!row.is_complete());
-            look.points.extend(FigurePoint::of(&row, self.choice, self.members.len()));
-            look.collected.take(row, self.sweep, is_own(member.index));
+            let point = |choice| FigurePoint::of(&row, choice, self.members.len());
+            look.points.extend(self.choice.and_then(point));
+            let is_own = is_own(row.index);
+            look.collected.take(row, self.sweep, is_own);
         }
         look
     }
 
-    fn write(&self, look: &MemberScan) -> Result<(), Failure> {
+    fn write(&self, look: &MemberScan, choice: &FigureChoice) -> Result<(), Failure> {
         let folder = &*self.folder;
         let fault = |name: &str, error: &io::Error| {
             let place = folder.path().join(name);
@@ -98,13 +101,16 @@ impl Collector<'_> {
         let keys = self.sweep.keys().map(|swept| swept.key.as_str());
         let keys = keys.chain(numbers.iter().map(|column| column.name.as_str()));
         let there = self.members.iter().filter(|member| look.is_there[member.index]);
-        let rows = self.rows(there).map(|row| self.numbered(row, &numbers));
+        let rows = self.rows(there).map(|row| {
+            let values = self.numbers.row(self.sweep, &numbers, row.index);
+            row.with_numbers(values)
+        });
         folder
             .write(SWEEP_FILE, |file| {
                 sweep_csv(file, keys, &look.columns.names(), rows).map_err(io::Error::from)
             })
             .map_err(|error| fault(SWEEP_FILE, &error))?;
-        match sweep_figure(self.sweep, &look.points, self.choice, look.n_failed) {
+        match sweep_figure(self.sweep, &look.points, choice, look.n_failed) {
             Some(svg) => folder
                 .write(FIGURE_FILE, |file| file.write_all(svg.as_bytes()))
                 .map_err(|error| fault(FIGURE_FILE, &error))?,
@@ -129,16 +135,10 @@ impl Collector<'_> {
             Some(Row::new(member, self.sweep.values(member.index), summary?))
         })
     }
-
-    /// Adds the values in SI to a row.
-    fn numbered(&self, row: Row, columns: &[NumberColumn]) -> Row {
-        let numbers = self.numbers.row(self.sweep, columns, row.index);
-        row.with_numbers(numbers)
-    }
 }
 
 impl SweepOutcome {
-    pub fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
+    fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
         self.n_done += 1;
         self.n_own_done += usize::from(is_own);
         if is_own && !row.is_complete() {

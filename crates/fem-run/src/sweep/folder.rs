@@ -100,11 +100,16 @@ impl SweepFolder {
         }
     }
 
-    /// Claims a new or empty folder or that of an earlier sweep, and writes the manifest.
+    /// Claims a new or empty folder or that of an earlier sweep, and writes the manifest. One that is there already may be left unchanged.
     pub fn claim(
         &self,
+        replaces_manifest: bool,
         mark: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        let has_one = self.path.join(MANIFEST_FILE).is_file();
+        if !replaces_manifest && has_one && is_ours(&self.path).unwrap_or(false) {
+            return Ok(());
+        }
         self.check()?;
         let out = &self.path;
         let named = shown(out);
@@ -115,14 +120,6 @@ impl SweepFolder {
             let what = format!("{named}: a sweep");
             unwritten(&what, &error, "name a folder in a place that you may write to")
         })
-    }
-
-    /// Claims a folder that may already hold this sweep; its manifest is then left unchanged.
-    pub fn join(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
-        match self.path.join(MANIFEST_FILE).is_file() && is_ours(&self.path).unwrap_or(false) {
-            true => Ok(()),
-            false => self.claim(mark),
-        }
     }
 
     /// The manifest is written first: it identifies the folder.

@@ -23,7 +23,7 @@ mod shard;
 mod slurm;
 mod status;
 
-pub use collect::{Collector, SweepOutcome};
+pub use collect::Collector;
 pub use cost_estimate::SweepCost;
 pub use folder::SweepFolder;
 pub use manifest::Manifest;
