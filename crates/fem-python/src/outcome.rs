@@ -24,9 +24,7 @@ pub struct Outcome {
 impl Outcome {
     /// Summarises a collision.
     pub fn of(computed: ComputedCollision, stopwatch: Stopwatch) -> Self {
-        let ComputedCollision { simulation, collision, errors } = &computed;
-        let (spent, warnings) = (stopwatch.spent(), computed.warnings());
-        let summary = Summary::of(simulation, collision, errors, spent, warnings, Vec::new());
+        let summary = stopwatch.summary(&computed, Vec::new());
         Self { computed, stopwatch, summary }
     }
 }

@@ -6,11 +6,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use fem::ComputedCollision;
-use fem::results::Summary;
 use fem::sweep::{Checked, Columns, Member, Observer, Row, Runner, check};
 use fem::{Case as FemCase, CaseError, SharedModels};
 use fem_collision::{Monitor, Progress};
-use fem_command::{Failure, Stopwatch, Timed};
+use fem_command::{Failure, Timed};
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
 use serde_json::Value;
@@ -65,7 +64,8 @@ impl<'a> Observer for MemberObserver<'a> {
         self.watch.set(n_done as f64 / self.n_members as f64);
         let text = match ran {
             Ok(ran) if ran.collision.is_interrupted() => return,
-            Ok(ran) => text_of(ran, &watch.stop().0),
+            Ok(ran) => serde_json::to_string(&watch.stop().0.summary(ran, Vec::new()))
+                .map_err(|error| Failure::failed(error.to_string())),
             Err(error) => Err(error.clone().into()),
         };
         match text {
@@ -82,15 +82,6 @@ impl<'a> Observer for MemberObserver<'a> {
 /// Locks a mutex. Its holder may have panicked, but its content is always valid.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Returns the summary of a member as JSON.
-fn text_of(ran: &ComputedCollision, stopwatch: &Stopwatch) -> Result<String, Failure> {
-    let ComputedCollision { simulation, collision, errors } = ran;
-    let warnings = ran.warnings();
-    let (spent, files) = (stopwatch.spent(), Vec::new());
-    let summary = Summary::of(simulation, collision, errors, spent, warnings, files);
-    serde_json::to_string(&summary).map_err(|error| Failure::failed(error.to_string()))
 }
 
 fn run(

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use fem::results::CostSummary;
-use fem::{ErrorEstimator, Simulation};
+use fem::results::{CostSummary, Summary};
+use fem::{ComputedCollision, ErrorEstimator, Simulation};
 use fem_collision::{Monitor, Phase, Progress};
 
 /// Threads of a single run.
@@ -62,6 +62,12 @@ impl<M: Monitor> Monitor for Timed<M> {
 }
 
 impl Stopwatch {
+    /// Returns the summary of a run with what it has spent until now and the names of its files.
+    pub fn summary(&self, ran: &ComputedCollision, files: Vec<String>) -> Summary {
+        let ComputedCollision { simulation, collision, errors } = ran;
+        Summary::of(simulation, collision, errors, self.spent(), ran.warnings(), files)
+    }
+
     /// Returns what has been spent until now.
     pub fn spent(&self) -> CostSummary {
         CostSummary {

@@ -66,12 +66,10 @@ pub fn write_result(
     keep: Keep,
     others: &[&str],
 ) -> WrittenResult {
-    let ComputedCollision { simulation, collision, errors } = computed;
+    let ComputedCollision { simulation, collision, .. } = computed;
     let folder = place.path();
-    let warnings = computed.warnings();
     let files = [SUMMARY_FILE].iter().chain(others).map(ToString::to_string).collect();
-    let mut summary =
-        Summary::of(simulation, collision, errors, stopwatch.spent(), warnings, files);
+    let mut summary = stopwatch.summary(computed, files);
     summary.source = place.source();
     let mut missing = None;
     let mut history = HistoryColumns::new();

@@ -116,7 +116,15 @@ impl ResultKeeper<'_> {
         let SweepJob { sweep, folder, .. } = self.job;
         let stem = &self.job.identity(index);
         if sweep.keep == Keep::Packed {
-            return self.append(stem, ran, stopwatch);
+            let summary = stopwatch.summary(ran, Vec::new());
+            return match self.pack.append(stem, &summary) {
+                Ok(()) => Ok(summary),
+                Err(error) => {
+                    let message = format!("a summary cannot be written: {}", cause(&error));
+                    let help = "the members before it are kept; the same command continues";
+                    Err(Failure::failed(message).with_help(help))
+                }
+            };
         }
         let out = folder.member(stem);
         let place = ResultFolder::claim_recovered(&out, &longest_name(stem), None, true)
@@ -127,22 +135,6 @@ impl ResultKeeper<'_> {
         }
         place.publish(true)?;
         Ok(written.summary)
-    }
-
-    fn append(
-        &self,
-        identity: &str,
-        ran: &ComputedCollision,
-        stopwatch: &Stopwatch,
-    ) -> Result<Summary, Failure> {
-        let ComputedCollision { simulation, collision, errors } = ran;
-        let (spent, warnings) = (stopwatch.spent(), ran.warnings());
-        let summary = Summary::of(simulation, collision, errors, spent, warnings, Vec::new());
-        self.pack.append(identity, &summary).map_err(|error| {
-            Failure::failed(format!("a summary cannot be written: {}", cause(&error)))
-                .with_help("the members before it are kept; the same command continues")
-        })?;
-        Ok(summary)
     }
 }
 
