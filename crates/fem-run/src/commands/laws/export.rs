@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fem::fit::dem::{BAND_FILE, Snippet, grain_snippets};
-use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers, StoredFit};
+use fem::laws::{DemExport, ImpactCurve, PairExport, StoredFit};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_report::law_figures::export_figure;
@@ -13,7 +13,6 @@ use super::export_text::{export_text, law_note, pairs_csv, pairs_json, pairs_tex
 use crate::arguments::case::CaseArguments;
 use crate::arguments::data::RestitutionArguments;
 use crate::arguments::law::{parse_length, parse_share, parse_speed};
-use crate::jobs::value_of;
 use crate::result_folder::Origin;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
@@ -67,40 +66,32 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
+/// The parts of an export, of one pair or of all pairs of some grains.
+struct Exported {
+    warnings: Vec<String>,
+    numbers: Value,
+    /// The table of all pairs.
+    table: Option<Vec<u8>>,
+    /// The files for the codes, and the table of the band, by name.
+    texts: Vec<(&'static str, String)>,
+    /// The laws of one pair, which are drawn.
+    fitted: Option<DemExport>,
+    /// The printed text.
+    shown: String,
+}
+
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
-    if arguments.wants_pairs() {
-        return write_pairs(arguments, &case);
-    }
     let table =
         arguments.data.as_deref().map(|path| arguments.restitutions.read(path)).transpose()?;
-    let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
-    let ImpactCurve { bounds, left_out, .. } = &fitted.curve;
-    // Those of a fit are among its own warnings.
-    let bounds = bounds.iter().filter(|_| arguments.fit.is_none());
-    standard_output::warn(bounds.chain(left_out).cloned());
+    let exported = exported(arguments, &case, table.as_ref())?;
+    standard_output::warn(exported.warnings);
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(&case))?;
-    for snippet in &snippets {
-        output.write(snippet.name, &snippet.text);
-    }
-    if let Some(band) = &fitted.curve.band {
-        output.write(BAND_FILE, band.csv());
-    }
-    output.write("export.svg", export_figure(&fitted));
-    output.publish(&fitted.numbers(&arguments.input.name(), &snippets), |_| {
-        let detail = if arguments.verbose { Detail::All } else { Detail::Short };
-        let mut text = export_text(&fitted, &snippets, detail);
-        text += &law_note(&fitted, arguments.data.is_some());
-        if fitted.curve.has_hertz_times {
-            text += "\nThe data have no contact times: the linear models use those of Hertz.\n";
-        }
-        if fitted.export.spheres.len() < 2 {
-            text += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
-                     it.\n";
-        }
-        text
-    })
+    exported.table.iter().for_each(|table| output.write("pairs.csv", table));
+    exported.texts.iter().for_each(|(name, text)| output.write(name, text));
+    exported.fitted.iter().for_each(|fitted| output.write("export.svg", export_figure(fitted)));
+    output.publish(&exported.numbers, |_| exported.shown)
 }
 
 /// Fits to a table in memory and returns the numbers, each snippet with its text.
@@ -109,30 +100,60 @@ pub fn numbers(
     case: &Case,
     table: Option<&Table>,
 ) -> Result<Value, Failure> {
-    if arguments.wants_pairs() {
-        let (export, rows) = pairs(arguments, case)?;
-        let mut numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
-        let texts = grain_snippets(&export.grains, &export.of_codes());
-        numbers["texts"] = texts.into_iter().collect();
-        return Ok(numbers);
-    }
     let table =
         table.cloned().map(|table| arguments.restitutions.name_columns(table)).transpose()?;
-    let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
-    let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
-    numbers["texts"] =
-        snippets.iter().map(|snippet| (snippet.name, snippet.text.clone())).collect();
-    if let Some(band) = &fitted.curve.band {
-        numbers["texts"][BAND_FILE] = band.csv().into();
-    }
+    let Exported { mut numbers, texts, .. } = exported(arguments, case, table.as_ref())?;
+    numbers["texts"] = texts.into_iter().collect();
     Ok(numbers)
 }
 
-impl Arguments {
-    fn wants_pairs(&self) -> bool {
-        !(self.materials.is_empty() && self.diameters.is_empty())
+fn exported(
+    arguments: &Arguments,
+    case: &Case,
+    table: Option<&Table>,
+) -> Result<Exported, Failure> {
+    let name = arguments.input.name();
+    if !(arguments.materials.is_empty() && arguments.diameters.is_empty()) {
+        return pairs(arguments, case, &name);
     }
+    let (fitted, snippets) = fitted(arguments, case, table)?;
+    let ImpactCurve { bounds, left_out, band, .. } = &fitted.curve;
+    // Those of a fit are among its own warnings.
+    let bounds = bounds.iter().filter(|_| arguments.fit.is_none());
+    let warnings = bounds.chain(left_out).cloned().collect();
+    let texts = snippets.iter().map(|snippet| (snippet.name, snippet.text.clone()));
+    let texts = texts.chain(band.as_ref().map(|band| (BAND_FILE, band.csv()))).collect();
+    let detail = if arguments.verbose { Detail::All } else { Detail::Short };
+    let mut shown = export_text(&fitted, &snippets, detail);
+    shown += &law_note(&fitted, arguments.data.is_some());
+    if fitted.curve.has_hertz_times {
+        shown += "\nThe data have no contact times: the linear models use those of Hertz.\n";
+    }
+    if fitted.export.spheres.len() < 2 {
+        shown += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
+                  it.\n";
+    }
+    let numbers = fitted.numbers(&name, &snippets);
+    Ok(Exported { warnings, numbers, table: None, texts, fitted: Some(fitted), shown })
+}
 
+fn pairs(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failure> {
+    let tolerance = arguments.checked_tolerance()?.unwrap_or(PAIRS_TOLERANCE);
+    let Arguments { materials, diameters, speeds, .. } = arguments;
+    let as_elastic = arguments.restitutions.as_elastic;
+    let export = PairExport::of(case, materials, diameters, *speeds, tolerance, as_elastic)?;
+    let rows = export.numbers();
+    Ok(Exported {
+        warnings: export.warnings(),
+        numbers: pairs_json(&export, name, &rows)?,
+        table: Some(pairs_csv(&rows)?),
+        texts: grain_snippets(&export.grains, &export.of_codes()),
+        fitted: None,
+        shown: pairs_text(&export, &rows),
+    })
+}
+
+impl Arguments {
     fn origin(&self, case: &Case) -> Origin {
         let data = self.data.as_deref();
         let origin = self.restitutions.origin("export", Some((&self.input, case)), data);
@@ -173,34 +194,6 @@ impl Arguments {
             tolerance => Ok(tolerance),
         }
     }
-}
-
-fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumbers>), Failure> {
-    let tolerance = arguments.checked_tolerance()?.unwrap_or(PAIRS_TOLERANCE);
-    let Arguments { materials, diameters, speeds, .. } = arguments;
-    let export = PairExport::of(
-        case,
-        materials,
-        diameters,
-        *speeds,
-        tolerance,
-        arguments.restitutions.as_elastic,
-    )?;
-    let rows = export.numbers();
-    Ok((export, rows))
-}
-
-fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
-    let (export, rows) = pairs(arguments, case)?;
-    let mut output =
-        arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(case))?;
-    output.write("pairs.csv", pairs_csv(&rows)?);
-    for (name, text) in grain_snippets(&export.grains, &export.of_codes()) {
-        output.write(name, text);
-    }
-    standard_output::warn(export.warnings());
-    let numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
-    output.publish(&numbers, |_| pairs_text(&export, &rows))
 }
 
 fn fitted(
