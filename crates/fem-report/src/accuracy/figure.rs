@@ -1,6 +1,6 @@
 //! `accuracy.svg`: errors over run time on logarithmic axes, and the best variant for each time.
 
-use fem::accuracy::{Series, VariantErrors, VariantRun};
+use fem::accuracy::{Series, Study, VariantErrors, VariantRun};
 use fem_collision::QuantityOfInterest;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
@@ -28,12 +28,8 @@ pub fn figure(result: &AccuracyResult<'_>) -> Option<String> {
         let limit = result.study.limits[quantity as usize]?;
         Some((limit.uncertainty / quantity.scale(limit.value)).max(MIN_DRAWN_ERROR))
     };
-    let three = [
-        QuantityOfInterest::Restitution,
-        QuantityOfInterest::ContactTime,
-        QuantityOfInterest::PeakForce,
-    ];
-    let worst = three.into_iter().filter_map(uncertainty).fold(MIN_DRAWN_ERROR, f64::max);
+    let main = Study::MAIN_QUANTITIES.into_iter();
+    let worst = main.filter_map(uncertainty).fold(MIN_DRAWN_ERROR, f64::max);
     let runs = &result.study.runs;
     let of = |quantity: QuantityOfInterest, label: &str| {
         let known = uncertainty(quantity).unwrap_or(MIN_DRAWN_ERROR);

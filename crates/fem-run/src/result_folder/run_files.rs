@@ -4,7 +4,7 @@
 //! is reserved before everything else, since it is written last, when all files are known.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use fem::results::{
@@ -155,41 +155,31 @@ fn reserve_space(folder: &Path, summary: &Summary) -> Result<(), String> {
     })
 }
 
-/// Writes the history, the probes if there are any, and the contact at the snapshots if the model has it.
+/// Writes the history, and the tables of what the run has: probes, dents and the contact at the snapshots.
 fn write_tables(
     folder: &Path,
     simulation: &Simulation,
     (collision, history): (&Collision, &HistoryColumns),
     summary: &mut Summary,
 ) -> Result<(), String> {
-    write_table(folder, HISTORY_FILE, summary, |file| history_csv(file, history))?;
+    type Write<'a> = &'a dyn Fn(&mut dyn io::Write) -> io::Result<()>;
     let probes = &simulation.request().probes;
-    if !probes.is_empty() {
-        write_table(folder, PROBES_FILE, summary, |file| {
-            Ok(probes_csv(file, probes, &collision.probes)?)
-        })?;
-    }
-    if collision.unloaded.is_some() {
-        write_table(folder, DENT_FILE, summary, |file| Ok(dent_csv(file, simulation, collision)?))?;
-    }
-    if has_contact(collision) {
-        write_table(folder, CONTACT_FILE, summary, |file| {
+    let tables: [(&str, bool, Write<'_>); 4] = [
+        (HISTORY_FILE, true, &|file| history_csv(file, history)),
+        (PROBES_FILE, !probes.is_empty(), &|file| Ok(probes_csv(file, probes, &collision.probes)?)),
+        (DENT_FILE, collision.unloaded.is_some(), &|file| {
+            Ok(dent_csv(file, simulation, collision)?)
+        }),
+        (CONTACT_FILE, has_contact(collision), &|file| {
             Ok(contact_csv(file, simulation, collision)?)
+        }),
+    ];
+    for (name, _, write) in tables.into_iter().filter(|(_, is_there, _)| *is_there) {
+        write_streamed(&folder.join(name), folder, write).map_err(|error| {
+            format!("{name} and the snapshots cannot be written: {}", cause(&error))
         })?;
+        summary.files.push(name.to_string());
     }
-    Ok(())
-}
-
-fn write_table(
-    folder: &Path,
-    name: &str,
-    summary: &mut Summary,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), String> {
-    write_streamed(&folder.join(name), folder, write).map_err(|error| {
-        format!("{name} and the snapshots cannot be written: {}", cause(&error))
-    })?;
-    summary.files.push(name.to_string());
     Ok(())
 }
 

@@ -112,6 +112,13 @@ pub struct ErrorPart {
 }
 
 impl<'a> Study<'a> {
+    /// The quantities whose largest error ranks variants.
+    pub const MAIN_QUANTITIES: [QuantityOfInterest; 3] = [
+        QuantityOfInterest::Restitution,
+        QuantityOfInterest::ContactTime,
+        QuantityOfInterest::PeakForce,
+    ];
+
     /// Compares the results and run times (s) of the variants; `None` for those that did not run.
     pub fn of(
         variants: &'a Variants,
@@ -224,12 +231,7 @@ fn finest_field(runs: &[VariantRun<'_>], limits: &[Option<Limit>; 6]) -> Option<
 
 /// Returns the largest error of restitution, contact time and peak force.
 fn worst(errors: &Numbers) -> Option<f64> {
-    let three = [
-        QuantityOfInterest::Restitution,
-        QuantityOfInterest::ContactTime,
-        QuantityOfInterest::PeakForce,
-    ];
-    three.into_iter().try_fold(0.0, |worst: f64, quantity| {
+    Study::MAIN_QUANTITIES.into_iter().try_fold(0.0, |worst: f64, quantity| {
         errors[quantity as usize].map(|error| worst.max(error.abs()))
     })
 }
