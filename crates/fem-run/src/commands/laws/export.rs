@@ -66,7 +66,7 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// What an export of one pair or of all pairs of some grains makes.
+/// The parts of an export, of one pair or of all pairs of some grains.
 struct Exported {
     warnings: Vec<String>,
     numbers: Value,
