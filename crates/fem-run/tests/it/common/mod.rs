@@ -236,13 +236,6 @@ impl<A: Words, B: Words, C: Words, D: Words> Words for (A, B, C, D) {
     }
 }
 
-/// Sends a signal to a process.
-#[cfg(unix)]
-pub fn send(child: &std::process::Child, signal: nix::sys::signal::Signal) {
-    let process = nix::unistd::Pid::from_raw(child.id().cast_signed());
-    nix::sys::signal::kill(process, signal).unwrap();
-}
-
 #[track_caller]
 pub fn number(value: &serde_json::Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))

@@ -10,7 +10,8 @@ use std::time::Duration;
 
 use nix::sys::signal::Signal;
 
-use crate::common::{Place, send};
+use crate::common::Place;
+use crate::folders::send;
 
 const LOCK: &str = ".fem-run-lock";
 
