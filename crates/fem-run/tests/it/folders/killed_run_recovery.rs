@@ -11,7 +11,7 @@ use std::time::Duration;
 use nix::sys::signal::Signal;
 
 use crate::common::Place;
-use crate::send;
+use crate::folders::send;
 
 const LOCK: &str = ".fem-run-lock";
 

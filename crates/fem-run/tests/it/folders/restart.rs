@@ -236,7 +236,7 @@ fn interrupted_run_restarts_to_the_same_result() {
     while !place.path("out").join(RESTART_FILE).exists() {
         sleep(Duration::from_millis(1));
     }
-    crate::send(&child, nix::sys::signal::Signal::SIGINT);
+    crate::folders::send(&child, nix::sys::signal::Signal::SIGINT);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let summary = place.json("out/summary.json");
     assert_eq!(summary["complete"], false);

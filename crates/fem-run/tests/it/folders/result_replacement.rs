@@ -169,7 +169,7 @@ fn a_race_for_one_folder_is_not_lost_silently() {
         assert!(slow.try_wait().unwrap().is_none());
     }
     place.succeed((TING, "--quiet --out out"));
-    crate::send(&slow, nix::sys::signal::Signal::SIGINT);
+    crate::folders::send(&slow, nix::sys::signal::Signal::SIGINT);
     assert_eq!(slow.wait().unwrap().code(), Some(1));
     assert_eq!(place.list("."), ["case.toml", "out", "out.new"]);
 }

@@ -43,7 +43,7 @@ mod signals {
     use nix::sys::signal::Signal;
 
     use super::*;
-    use crate::send;
+    use crate::folders::send;
 
     /// A mesh so fine that the run would take hours.
     const ENDLESS: [&str; 4] =

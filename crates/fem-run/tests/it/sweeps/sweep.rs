@@ -10,7 +10,7 @@ use nix::sys::signal::Signal;
 
 use crate::common::Place;
 #[cfg(unix)]
-use crate::send;
+use crate::folders::send;
 
 /// Three speeds and two relaxation weights, in all combinations.
 const SWEEP: &str = r#"case = "case.toml"
