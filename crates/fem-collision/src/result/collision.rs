@@ -164,9 +164,9 @@ pub struct TangentialErrors {
 /// Force and pressures of a contact at equal steps of time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PressureRecord {
-    /// s.
+    /// Time between two steps, s.
     pub time_step: f64,
-    /// N.
+    /// Contact forces, N.
     pub forces: Vec<f64>,
     /// Pairs of radius (m) and pressure (Pa) from the axis outward.
     pub profiles: Vec<Vec<(f64, f64)>>,

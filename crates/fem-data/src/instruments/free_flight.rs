@@ -20,9 +20,9 @@
 
 /// A gas through which a ball flies.
 pub(super) struct Gas {
-    /// Density, kg/m³.
+    /// Density of the air, kg/m³.
     pub density: f64,
-    /// Viscosity, Pa·s.
+    /// Viscosity of the air, Pa·s.
     pub viscosity: f64,
 }
 

@@ -15,11 +15,11 @@ pub(super) struct FarField {
 }
 
 struct Term {
-    /// m_k, m/N.
+    /// Compliance m_k, m/N.
     compliance: f64,
     decay: f64,
     ramp: f64,
-    /// M_k, N.
+    /// Fading memory M_k, N.
     memory: f64,
 }
 

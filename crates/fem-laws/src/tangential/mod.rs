@@ -43,9 +43,9 @@ pub struct TangentialContact {
     /// Tangential modulus G* before relaxation, Pa.
     modulus: f64,
     relaxation: PairRelaxation,
-    /// m_t, kg.
+    /// Mass m_t of the patch, kg.
     mass: f64,
-    /// Coulomb's coefficient.
+    /// Coulomb's coefficient of friction.
     friction: f64,
     size: Option<FiniteSize>,
 }
@@ -155,7 +155,7 @@ struct Sliding<'a> {
     normal: &'a NormalSprings,
     /// Factors of each term over a step: weight, decay, and the share of an even change that it keeps.
     terms: Vec<[f64; 3]>,
-    /// What a spring holds at most over its load, 1/Pa.
+    /// Largest force of a spring over its load, 1/Pa.
     limit: f64,
     /// g∞ + Σ g_k of what is kept of a change in the step.
     stiffness: f64,
@@ -330,7 +330,7 @@ impl<'a> Sliding<'a> {
 /// What the springs sum up to at the end of a step.
 #[derive(Default)]
 struct Sums {
-    /// N.
+    /// Force of the springs, N.
     force: f64,
     /// Change of the pseudo-force in the step, N.
     change: f64,

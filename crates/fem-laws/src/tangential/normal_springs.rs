@@ -32,7 +32,7 @@ const KNOTS: usize = 64;
 /// edge of the growing contact is at the end of each step, so that it is reached there and not within a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NormalSprings {
-    /// s.
+    /// Time between two instants, s.
     pub(super) time_step: f64,
     /// Distances from the axis, m.
     pub(super) places: Vec<f64>,
@@ -251,7 +251,7 @@ struct RelaxingSprings<'a> {
 #[derive(Clone, Copy)]
 struct LoadingTime {
     before: usize,
-    /// Of the step that follows.
+    /// Share of the step that follows.
     share: f64,
 }
 

@@ -180,21 +180,21 @@ pub struct Tangential {
 /// Error bars of the tangential quantities, written beside those of the others in an oblique impact.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct TangentialParts {
-    /// Of `tangential_restitution`.
+    /// Error bar of `tangential_restitution`.
     pub tangential_restitution: Parts,
-    /// Of `contact_patch_rebound_deg`.
+    /// Error bar of `contact_patch_rebound_deg`.
     pub contact_patch_rebound_deg: Parts,
-    /// Of `impulse_ratio`.
+    /// Error bar of `impulse_ratio`.
     pub impulse_ratio: Parts,
 }
 
 /// Uncertainty of all quantities.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Uncertainty {
-    /// Of the quantities along the axis.
+    /// Error bars of the quantities along the axis.
     #[serde(flatten)]
     pub axial: PerQuantity<Parts>,
-    /// Of those across it.
+    /// Error bars of those across it, in an oblique impact.
     #[serde(flatten)]
     pub tangential: Option<TangentialParts>,
 }

@@ -27,11 +27,11 @@ fn result_has_the_documented_keys_and_files() {
         (&summary["uncertainty"], QUANTITIES),
         (
             &summary["energy"],
-            "initial_j kinetic_j strain_j contact_j viscous_dissipation_j wall_work_j residual_j residual_relative",
+            "initial_j kinetic_j strain_j contact_j viscous_dissipation_j wall_work_j friction_j tangential_relaxation_j residual_j residual_relative",
         ),
         (
             &summary["bodies"][1],
-            "name elements nodes mass_kg added_mass_kg velocity_before_m_s velocity_after_m_s vibration_energy_j",
+            "name elements nodes mass_kg added_mass_kg velocity_before_m_s velocity_after_m_s velocity_tangential_after_m_s spin_after_rad_s vibration_energy_j",
         ),
         (
             &summary["cost"],

@@ -106,7 +106,12 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     assert_eq!(alone["case"], member["case"]);
     let cell = |name: &str| rows[3][rows[0].iter().position(|key| key == name).unwrap()].as_str();
     let mut n_checked = 0;
+    let across = ["tangential", "contact_patch", "impulse_ratio", "psi", "energy_friction"];
     let mut check = |column: String, value: &serde_json::Value| {
+        // Columns of oblique impacts stand in tables that have one.
+        if across.iter().any(|name| column.contains(name)) {
+            return assert!(value.is_null() && !rows[0].contains(&column), "{column}");
+        }
         let expected = match value {
             serde_json::Value::Null => String::new(),
             serde_json::Value::String(text) => text.clone(),
