@@ -6,7 +6,7 @@ use fem_vtk::VtuFile;
 /// The quantities of interest, which `hertz` and `uncertainty` have too.
 const QUANTITIES: &str =
     "restitution contact_time_s peak_force_n max_approach_m max_contact_radius_m peak_pressure_pa";
-const OTHERS: &str = "status peak_force_raw_n radius_and_pressure elastic_null stress_error measured_restitution contact_episodes hertz energy \
+const OTHERS: &str = "tangential_restitution contact_patch_rebound_deg impulse_ratio psi_before psi_after status peak_force_raw_n radius_and_pressure elastic_null stress_error measured_restitution contact_episodes hertz energy \
     momentum_residual_relative bounces adhesion plate relaxation_coverage dent rest bodies time_step_s steps element_updates cost effects uncertainty coarser_meshes \
     models_considered warnings complete stopped_because program version numerics made_from source case";
 
