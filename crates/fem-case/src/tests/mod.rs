@@ -34,7 +34,7 @@ fn shipped_schemas_are_current() {
             fs::write(&path, &text).unwrap();
         }
         let is_current = fs::read_to_string(&path).is_ok_and(|shipped| shipped == text);
-        assert!(is_current, "UPDATE=1 cargo test -p fem-case --features schema writes {path}");
+        assert!(is_current, "cargo test -p fem-case --features schema with UPDATE=1 writes {path}");
     }
 }
 
