@@ -39,7 +39,7 @@
 //!     Path::new("."),
 //!     &["body.0.sphere.diameter='1 cm'".to_string()],
 //! )?;
-//! assert_eq!(case.scene().title(), "ball, diameter = 1 cm");
+//! assert_eq!(case.scene().title(), "ball, but diameter = 1 cm");
 //! assert_eq!(case.scene().bodies()[0].diameter(), Some(0.01));
 //! assert_eq!(case.scene().bodies()[0].velocity(), 0.5);
 //!

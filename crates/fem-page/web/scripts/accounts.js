@@ -12,6 +12,8 @@ export const ACCOUNT_WORDS = {
   potential: 'height',
   left_before: 'energy left in the bodies by earlier contacts',
   adhesion: 'held back by adhesion',
+  friction: 'work of friction',
+  tangential_relaxation: 'relaxed under friction',
   plastic_work: 'heat from plastic flow',
   plate: 'bending waves of the plate',
 };

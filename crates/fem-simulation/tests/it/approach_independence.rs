@@ -48,7 +48,7 @@ fn a_summary_belongs_to_its_approach() {
                 assert_eq!(value, &expected[key], "{name}: {key}");
             }
             let strain =
-                slow.warnings(&collision).iter().any(|w| w.contains("choice of an elastic law"));
+                slow.warnings(&collision).iter().any(|w| w.contains("elastic laws differ"));
             assert_eq!(strain, approach == fast(), "{name}");
         }
     }

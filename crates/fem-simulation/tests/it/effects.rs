@@ -83,20 +83,20 @@ fn every_model_supports_or_excludes_every_effect() {
     let reduced = "viscoelasticity, dashpot, finite size, finite strain, surface slip, plastic flow, adhesion, partner waves, \
                    rigid partner, vibration, gravity";
     let law = reduced.replace("plastic flow, adhesion, ", "");
-    let no_elements = "material loss, plate bending, rate dependence, mirror symmetry, hourglass control, bulk viscosity, penalty springs, contact search, mass scaling";
+    let no_elements = "material loss, friction, tangential coupling, plate bending, rate dependence, mirror symmetry, hourglass control, bulk viscosity, penalty springs, contact search, mass scaling";
     // Elements always include inertia, and modes of vibration resolve no fronts.
     for (model, answered, foreign) in [
         (
             "fem={}",
             "viscoelasticity, finite strain, surface slip, plastic flow, adhesion, partner waves, mirror symmetry, rigid partner, \
              hourglass control, bulk viscosity, gravity, contact search, mass scaling",
-            "material loss, plate bending, dashpot, finite size, rate dependence, vibration, penalty springs",
+            "material loss, friction, tangential coupling, plate bending, dashpot, finite size, rate dependence, vibration, penalty springs",
         ),
         (
             "condensed={}",
             "viscoelasticity, finite strain, surface slip, plastic flow, adhesion, partner waves, mirror symmetry, rigid partner, \
              vibration, penalty springs, gravity, contact search",
-            "material loss, plate bending, dashpot, finite size, rate dependence, hourglass control, bulk viscosity, mass scaling",
+            "material loss, friction, tangential coupling, plate bending, dashpot, finite size, rate dependence, hourglass control, bulk viscosity, mass scaling",
         ),
         ("hertz={}", reduced, no_elements),
         ("ting={}", reduced, no_elements),

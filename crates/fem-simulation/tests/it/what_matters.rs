@@ -61,7 +61,7 @@ fn check_numbers(of: &str, summary: &fem_simulation::Summary) {
         names.contains(&it.decision.name) && !it.decision.active && change > Some(0.1)
     });
     assert!(!is_decided || parts.model.is_none_or(|error| error > 0.1), "{of}: {parts:?}");
-    let words = ["damping", "yields", "stick", "plastic flow", "contact radius"];
+    let words = ["damping", "relaxes", "yields", "stick", "plastic flow", "contact radius"];
     let is_told = |it: &String| words.iter().any(|word| it.contains(word));
     assert!(parts.bound.is_none() || summary.warnings.iter().any(is_told), "{of}");
 }
