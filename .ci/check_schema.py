@@ -68,6 +68,8 @@ REJECTED = [
     ("/model/law/linear", {"k": 1e7, "c": 1, "e": 0.9}),
     ("/model/law/linear", {"e": 0.9}),
     ("/contact/method", "sticky"),
+    ("/contact/friction", -0.1),
+    ("/body/0/spin", "10 m/s"),
     ("/time/step_factor", 1.5),
     ("/mesh/growth", 1),
     ("/stop/bounces", 0),
@@ -84,6 +86,9 @@ ACCEPTED = {
     f"{GLASS}/youngs_modulus": ["63 GPa", "63e9 N/m^2", "63 kN/mm²", "9e6 psi", "63e9 kg/(m s^2)"],
     f"{GLASS}/relaxation/terms/0/decay_rate": ["2708 1/s", "2708 /s", "2.708 kHz", "2708 s^-1", "2.7 1/ms"],
     f"{GLASS}/relaxation/terms/0/weight": ["50 %", "0.5"],
+    "/body/0/spin": ["10 rad/s", "60 rpm", "-3 1/s", "90 deg/s", "2 rad/s ± 5 %"],
+    "/body/0/impact_angle": ["30 deg", "30°", "0.5 rad", "30 ± 1 deg", "0.5"],
+    "/contact/friction": ["0.1 ± 0.02", "10 %"],
     "/limits/memory": ["8 GB", "8 GiB"],
 }
 

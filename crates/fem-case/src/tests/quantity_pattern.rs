@@ -41,7 +41,7 @@ pub(crate) fn pattern(dimension: [i32; 4]) -> String {
             forms.push(per(&of(ENERGY), &format!("{length}{square}")));
         }
         [0, 1, -1, 0] => forms.push(per(&mass, &time)),
-        [0, 0, -1, 0] => forms.push(per("1?", &time)),
+        [0, 0, -1, 0] => forms.push(per("(1|rad|deg|°)?", &time)),
         _ => {}
     }
     forms.retain(|form| !form.is_empty() || dimension == [0; 4]);

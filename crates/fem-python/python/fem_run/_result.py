@@ -56,6 +56,11 @@ class Result:
     momentum_residual_relative: float | None
     bounces: list[dict[str, Any]] | None
     adhesion: dict[str, Any] | None
+    tangential_restitution: float | None
+    contact_patch_rebound_deg: float | None
+    impulse_ratio: float | None
+    psi_before: float | None
+    psi_after: float | None
     plate: dict[str, Any] | None
     relaxation_coverage: dict[str, Any] | None
     dent: list[dict[str, Any]] | None
