@@ -61,7 +61,7 @@ impl FiniteSize {
         Self::of_loads(Coefficient::NORMAL, [first, second])
     }
 
-    /// Creates the correction of a load across the axis, c_t of [`crate::finite_size::coefficient`], as [`FiniteSize::new`] that of
+    /// Creates the correction of a load across the axis, c_t of its own coefficient, as [`FiniteSize::new`] that of
     /// one along it.
     ///
     /// # Errors
