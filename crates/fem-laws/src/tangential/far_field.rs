@@ -1,9 +1,9 @@
 //! The displacement of the bodies around the springs: their finite size.
 
+use fem_material::RelaxationStep;
+
 use crate::finite_size::FiniteSize;
-use crate::numerics::functions::exp;
 use crate::pair_relaxation::PairRelaxation;
-use crate::tangential::normal_springs::ramp;
 
 /// m∞ w + Σ m_k M_k of the pseudo-force w ([`FiniteSize`]), with the coefficient at the largest contact radius.
 pub(super) struct FarField {
@@ -17,8 +17,7 @@ pub(super) struct FarField {
 struct Term {
     /// Compliance m_k, m/N.
     compliance: f64,
-    decay: f64,
-    ramp: f64,
+    step: RelaxationStep,
     /// Fading memory M_k, N.
     memory: f64,
 }
@@ -38,9 +37,9 @@ impl FarField {
         let terms = relaxation.terms().iter().zip(&correction.fading);
         let terms: Vec<_> = terms
             .map(|(term, correction)| {
-                let fading = time_step / term.relaxation_time;
                 let compliance = correction.alpha;
-                Term { compliance, decay: exp(-fading), ramp: ramp(fading), memory: 0.0 }
+                let step = RelaxationStep::new(term.relaxation_time, time_step);
+                Term { compliance, step, memory: 0.0 }
             })
             .collect();
         let compliance = correction.equilibrium.alpha;
@@ -49,12 +48,13 @@ impl FarField {
 
     /// Returns the displacement in a step per change of the pseudo-force, m/N.
     pub fn slope(&self) -> f64 {
-        self.compliance + self.terms.iter().map(|term| term.compliance * term.ramp).sum::<f64>()
+        self.compliance
+            + self.terms.iter().map(|term| term.compliance * term.step.gain).sum::<f64>()
     }
 
     /// Returns the displacement in a step in which the pseudo-force changes, m.
     pub fn change(&self, pseudo_force: f64) -> f64 {
-        let creep = |term: &Term| term.compliance * (term.decay - 1.0) * term.memory;
+        let creep = |term: &Term| term.compliance * (term.step.decay - 1.0) * term.memory;
         self.slope() * pseudo_force + self.terms.iter().map(creep).sum::<f64>()
     }
 
@@ -65,7 +65,7 @@ impl FarField {
         let [before, after] = [self.force, force].map(|force| 0.5 * whole * force * force);
         let work = 0.5 * (self.force + force) * self.change(pseudo_force);
         for term in &mut self.terms {
-            term.memory = term.decay * term.memory + term.ramp * pseudo_force;
+            term.memory = term.step.advance(term.memory, pseudo_force);
         }
         self.force = force;
         [after, work - (after - before)]

@@ -25,14 +25,12 @@ mod normal_springs;
 
 pub use normal_springs::NormalSprings;
 
-use fem_material::{Material, PronyTerm};
+use fem_material::{Material, PronyTerm, RelaxationStep};
 
 use crate::error::LawError;
 use crate::finite_size::FiniteSize;
-use crate::numerics::functions::exp;
 use crate::pair_relaxation::PairRelaxation;
 use crate::tangential::far_field::FarField;
-use crate::tangential::normal_springs::ramp;
 
 /// Largest number of Newton's iterations of a step. Sticking springs are linear; each that begins to slide may take one more.
 const MAX_ITERATIONS: usize = 50;
@@ -153,8 +151,8 @@ const SETTLED: f64 = 1e-13;
 struct Sliding<'a> {
     contact: &'a TangentialContact,
     normal: &'a NormalSprings,
-    /// Factors of each term over a step: weight, decay, and the share of an even change that it keeps.
-    terms: Vec<[f64; 3]>,
+    /// Weight of each term, and its factors over a step.
+    terms: Vec<(f64, RelaxationStep)>,
     /// Largest force of a spring over its load, 1/Pa.
     limit: f64,
     /// g∞ + Σ g_k of what is kept of a change in the step.
@@ -178,13 +176,12 @@ struct Sliding<'a> {
 impl<'a> Sliding<'a> {
     fn new(contact: &'a TangentialContact, normal: &'a NormalSprings, velocity: f64) -> Self {
         let factors = |term: &PronyTerm| {
-            let fading = normal.time_step / term.relaxation_time;
-            [term.weight, exp(-fading), ramp(fading)]
+            (term.weight, RelaxationStep::new(term.relaxation_time, normal.time_step))
         };
         let terms: Vec<_> = contact.relaxation.terms().iter().map(factors).collect();
         let equilibrium = contact.relaxation.equilibrium_weight();
         let stiffness =
-            equilibrium + terms.iter().map(|[weight, _, kept]| weight * kept).sum::<f64>();
+            equilibrium + terms.iter().map(|(weight, step)| weight * step.gain).sum::<f64>();
         let widest = normal.places[normal.places.len() - 1];
         Self {
             contact,
@@ -271,9 +268,9 @@ impl<'a> Sliding<'a> {
         self.held.clear();
         let reached = self.elongations[..n_reached].iter();
         self.held.extend(reached.map(|elongation| equilibrium * elongation));
-        for ([weight, decay, _], branch) in self.terms.iter().zip(&self.branches) {
+        for ((weight, step), branch) in self.terms.iter().zip(&self.branches) {
             for (held, branch) in self.held.iter_mut().zip(branch) {
-                *held += weight * decay * branch;
+                *held += weight * step.decay * branch;
             }
         }
     }
@@ -312,8 +309,9 @@ impl<'a> Sliding<'a> {
             let mut before = equilibrium * self.elongations[spring];
             self.elongations[spring] += stretched;
             strain += unit * equilibrium * self.elongations[spring].powi(2);
-            for ([weight, decay, kept], branch) in self.terms.iter().zip(&mut self.branches) {
-                let (old, new) = (branch[spring], decay * branch[spring] + kept * stretched);
+            for ((weight, step), branch) in self.terms.iter().zip(&mut self.branches) {
+                let old = branch[spring];
+                let new = step.advance(old, stretched);
                 before += weight * old;
                 // The mean force by what the dashpot gives way.
                 let given = stretched - (new - old);

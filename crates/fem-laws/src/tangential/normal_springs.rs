@@ -15,6 +15,8 @@
 //!
 //! with the t₁ of [`crate::Ting`]: the loading until then alone.
 
+use fem_material::RelaxationStep;
+
 use crate::error::{LawError, positive};
 use crate::impact::{Impact, ImpactPath};
 use crate::laws::ContactLaw;
@@ -261,11 +263,11 @@ impl<'a> RelaxingSprings<'a> {
             (0..indentations.len()).max_by(|a, b| indentations[*a].total_cmp(&indentations[*b]));
         let top = top.unwrap_or_default();
         let memories = relaxation.terms().iter().map(|term| {
-            let rate = term.relaxation_time.recip();
+            let of_step = RelaxationStep::new(term.relaxation_time, time_step);
             let mut memory = vec![0.0];
             for pair in indentations[..=top].windows(2) {
                 let last = memory[memory.len() - 1];
-                memory.push(advanced(last, rate * time_step, pair[1] - pair[0]));
+                memory.push(of_step.advance(last, pair[1] - pair[0]));
             }
             memory
         });
@@ -286,10 +288,11 @@ impl<'a> RelaxingSprings<'a> {
 
     /// Returns the memory of a term at a time in loading, m.
     fn memory(&self, term: usize, LoadingTime { before, share }: LoadingTime) -> f64 {
-        let rate = self.relaxation.terms()[term].relaxation_time.recip();
+        let relaxation_time = self.relaxation.terms()[term].relaxation_time;
         let after = (before + 1).min(self.top);
         let change = self.indentations[after] - self.indentations[before];
-        advanced(self.memories[term][before], rate * share * self.time_step, share * change)
+        let part = RelaxationStep::new(relaxation_time, share * self.time_step);
+        part.advance(self.memories[term][before], share * change)
     }
 
     /// Writes the loads over E*(0) at a step, where `gap` is the indentation at which each spring is reached; one step after the
@@ -319,16 +322,6 @@ impl<'a> RelaxingSprings<'a> {
         }
         loads[..reached].iter_mut().for_each(|load| *load = load.max(0.0));
     }
-}
-
-/// Returns the memory of a term, ∫e^(−b(t−s)) du, after a time of `fading` = b t in which u changes evenly.
-fn advanced(memory: f64, fading: f64, change: f64) -> f64 {
-    memory * exp(-fading) + ramp(fading) * change
-}
-
-/// Returns (1 − e^(−x))/x.
-pub(super) fn ramp(x: f64) -> f64 {
-    if x > 0.0 { -libm::expm1(-x) / x } else { 1.0 }
 }
 
 /// Returns q(x), N/m, of a pressure whose square is linear in r² between the given radii, as Hertz' is, and 0 outside.

@@ -1,5 +1,6 @@
 //! The methods, one file or folder each, and the method that a scene uses.
 
+mod altered;
 mod auto;
 pub(crate) mod bouncing;
 pub(crate) mod condensed;
@@ -21,9 +22,10 @@ use crate::models::method::{ExpectedRun, Method, Model, ModelSetup, SharedModels
 use crate::plan::Plan;
 use crate::rejection::Rejection;
 
+use altered::Altered;
 use bouncing::Bouncing;
-use oblique::Oblique;
-use sticking::{Bond, Sticking};
+use oblique::ObliqueBodies;
+use sticking::Bond;
 
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
@@ -88,8 +90,8 @@ impl ComputedScene {
     pub fn model(&self, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         let regime = &self.selected.regime;
         let bond = Bond::of(&self.given.scene);
-        let model = Sticking::around(self.method().build(regime, shared)?, bond);
-        let model = Oblique::around(model, &regime.scene)?;
+        let model = Altered::around(self.method().build(regime, shared)?, bond);
+        let model = Altered::around(model, ObliqueBodies::of(&regime.scene)?);
         Ok(match self.given.scene.gravity() {
             Some(gravity) => Box::new(Bouncing::new(regime, gravity, model, bond)?),
             None => model,

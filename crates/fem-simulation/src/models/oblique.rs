@@ -7,16 +7,13 @@
 
 use fem_case::{Body, ModelChoice, Scene};
 use fem_collision::{
-    Account, Approach, Collision, Ending, EnergyLedger, HistoryRow, Monitor, OutputRequest,
-    StaticContact, Stop, TangentialErrors, TangentialResult, TangentialRow,
+    Account, Collision, Ending, EnergyLedger, HistoryRow, TangentialErrors, TangentialResult,
+    TangentialRow,
 };
 use fem_laws::{LawError, NormalSprings, TangentialContact, TangentialImpact, TangentialInstant};
-use fem_mesh::SphereMesh;
 
-use crate::effects::{Effect, FrictionEffect, Support};
-use crate::estimate::Estimate;
-use crate::models::method::{Model, ModelSetup};
-use crate::models::stepper::{RestartState, Stepper, Transformed};
+use crate::effects::FrictionEffect;
+use crate::models::altered::Alteration;
 use crate::rejection::Rejection;
 
 /// Moment of inertia of a solid sphere over m R².
@@ -30,20 +27,24 @@ const STIFFER: f64 = 0.01;
 
 /// Two bodies that move across the axis or spin.
 #[derive(Clone, Debug)]
-struct ObliqueBodies {
+pub(super) struct ObliqueBodies {
     scene: Scene,
     contact: TangentialContact,
     /// The contact of half-spaces instead of spheres, or of spheres instead of half-spaces: what finite size changes.
     other_size: TangentialContact,
-    /// 1/m and R/I of each body; 0 of one that does not move or turn.
+    /// 1/m of each body; 0 of one that neither moves nor turns.
     inverse_masses: [f64; 2],
-    levers: [f64; 2],
 }
 
 impl ObliqueBodies {
+    /// Returns the bodies of an oblique scene; `None` of another one.
+    ///
     /// # Errors
-    /// A scene with an effect that is computed for bodies that meet head-on only.
-    fn of(scene: &Scene) -> Result<Self, Rejection> {
+    /// Friction beside an effect with which it is not computed.
+    pub fn of(scene: &Scene) -> Result<Option<Self>, Rejection> {
+        if !scene.is_oblique() {
+            return Ok(None);
+        }
         let friction = scene.friction();
         if friction > 0.0 {
             check(scene)?;
@@ -52,27 +53,16 @@ impl ObliqueBodies {
         let moves = |body: &Body| body.mass().filter(|_| !body.is_held());
         let inverse_masses =
             scene.bodies().each_ref().map(|body| moves(body).map_or(0.0, f64::recip));
-        let levers = scene
-            .bodies()
-            .each_ref()
-            .map(|body| moves(body).map_or(0.0, |mass| (INERTIA * mass * body.radius()).recip()));
-        let lever_sum: f64 = [0, 1]
-            .map(|k| {
-                inverse_masses[k]
-                    + if levers[k] > 0.0 { levers[k] * scene.bodies()[k].radius() } else { 0.0 }
-            })
-            .into_iter()
-            .sum();
+        let patch_mass = (inverse_masses.iter().sum::<f64>() * (1.0 + INERTIA.recip())).recip();
         let relaxes = matches!(scene.model(), ModelChoice::Ting { .. } | ModelChoice::Condensed(_));
         let materials = scene.bodies().each_ref().map(|body| {
             let material = body.material()?;
             Some(if relaxes { material.clone() } else { material.without_relaxation() })
         });
         let bodies = materials.each_ref().map(Option::as_ref);
-        let half_spaces =
-            TangentialContact::new(bodies, lever_sum.recip(), friction).map_err(reject)?;
-        let elastic = materials.clone();
-        let sized = scene.clone().with_materials(elastic).tangential_size().map_err(reject)?;
+        let half_spaces = TangentialContact::new(bodies, patch_mass, friction).map_err(reject)?;
+        let sized =
+            scene.clone().with_materials(materials.clone()).tangential_size().map_err(reject)?;
         let spheres = half_spaces.clone().with_finite_size(sized);
         let has_size = match scene.model() {
             ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => {
@@ -84,7 +74,7 @@ impl ObliqueBodies {
             true => [spheres, half_spaces],
             false => [half_spaces, spheres],
         };
-        Ok(Self { scene: scene.clone(), contact, other_size, inverse_masses, levers })
+        Ok(Some(Self { scene: scene.clone(), contact, other_size, inverse_masses }))
     }
 
     /// Returns the velocities and spins of both bodies after a tangential impulse, N s.
@@ -92,7 +82,9 @@ impl ObliqueBodies {
         let bodies = self.scene.bodies();
         let [lower, upper] = self.inverse_masses;
         let velocities = bodies.each_ref().map(Body::tangential_velocity);
-        let spins = [0, 1].map(|k| bodies[k].spin() + self.levers[k] * impulse);
+        // R/I, 0 of a flat body.
+        let lever = |k: usize| self.inverse_masses[k] / (INERTIA * bodies[k].radius());
+        let spins = [0, 1].map(|k| bodies[k].spin() + lever(k) * impulse);
         ([velocities[0] - lower * impulse, velocities[1] + upper * impulse], spins)
     }
 
@@ -121,6 +113,59 @@ impl ObliqueBodies {
         let fixed = |k: usize| self.inverse_masses[k] == 0.0;
         let of = |is_fixed: bool, velocity: f64| if is_fixed { impulse * velocity } else { 0.0 };
         of(fixed(0), lower) - of(fixed(1), upper)
+    }
+
+    /// Returns m*, kg, of the motion along the axis.
+    fn normal_mass(&self) -> f64 {
+        self.inverse_masses.iter().sum::<f64>().recip()
+    }
+
+    /// Returns the energies with those of the tangential contact at an instant after an impulse, N s.
+    fn added(&self, energies: EnergyLedger, at: &TangentialInstant, impulse: f64) -> EnergyLedger {
+        let work = self.wall_work(impulse);
+        let energies = energies
+            .with(Account::Kinetic, self.kinetic(impulse))
+            .with(Account::Strain, at.strain_energy)
+            .with(Account::Friction, at.friction_work)
+            .with(Account::TangentialRelaxation, at.relaxation_loss);
+        if work == 0.0 { energies } else { energies.with(Account::WallWork, work) }
+    }
+
+    /// Returns the errors of the velocity of the rebounding patch, m/s.
+    fn errors(
+        &self,
+        collision: &Collision,
+        springs: &NormalSprings,
+        impact: &TangentialImpact,
+        before: f64,
+    ) -> TangentialErrors {
+        let change = |contact: &TangentialContact| {
+            (contact.impact(springs, before).velocity - impact.velocity).abs()
+        };
+        let share = if self.contact.has_finite_size() { SECOND_ORDER } else { 1.0 };
+        let of_size = share * change(&self.other_size);
+        let coupling = FrictionEffect::coupling(&self.scene);
+        let sliding_share = before.abs() * coupling.stiffness_ratio
+            / (self.scene.friction() * collision.approach.speed());
+        let model = (!coupling.is_unknown(sliding_share)).then_some(of_size);
+        let friction = self.scene.friction();
+        let input = self.scene.uncertain_inputs().iter().find(|it| it.key == "contact.friction");
+        let of_friction = |to: f64| self.contact.clone().with_friction(to).impact(springs, before);
+        TangentialErrors {
+            discretisation: Some(self.contact.discretisation_error(springs, impact, before)),
+            per_stiffness: change(&self.contact.clone().stiffer_by(STIFFER)) / STIFFER,
+            model,
+            input: input.map(|it| {
+                let [low, high] = [friction - it.uncertainty, friction + it.uncertainty];
+                0.5 * (of_friction(high).velocity - of_friction(low.max(0.0)).velocity).abs()
+            }),
+        }
+    }
+}
+
+impl Alteration for ObliqueBodies {
+    fn needs_springs(&self) -> bool {
+        self.scene.friction() > 0.0
     }
 
     /// Returns a collision of the bodies as they meet head-on with its tangential half, on the springs of its contact.
@@ -190,53 +235,6 @@ impl ObliqueBodies {
         };
         whole.map_samples(row, |fields| fields)
     }
-
-    /// Returns m*, kg, of the motion along the axis.
-    fn normal_mass(&self) -> f64 {
-        self.inverse_masses.iter().sum::<f64>().recip()
-    }
-
-    /// Returns the energies with those of the tangential contact at an instant after an impulse, N s.
-    fn added(&self, energies: EnergyLedger, at: &TangentialInstant, impulse: f64) -> EnergyLedger {
-        let work = self.wall_work(impulse);
-        let energies = energies
-            .with(Account::Kinetic, self.kinetic(impulse))
-            .with(Account::Strain, at.strain_energy)
-            .with(Account::Friction, at.friction_work)
-            .with(Account::TangentialRelaxation, at.relaxation_loss);
-        if work == 0.0 { energies } else { energies.with(Account::WallWork, work) }
-    }
-
-    /// Returns the errors of the velocity of the rebounding patch, m/s.
-    fn errors(
-        &self,
-        collision: &Collision,
-        springs: &NormalSprings,
-        impact: &TangentialImpact,
-        before: f64,
-    ) -> TangentialErrors {
-        let change = |contact: &TangentialContact| {
-            (contact.impact(springs, before).velocity - impact.velocity).abs()
-        };
-        let share = if self.contact.has_finite_size() { SECOND_ORDER } else { 1.0 };
-        let of_size = share * change(&self.other_size);
-        let coupling = FrictionEffect::coupling(&self.scene);
-        let sliding_share = before.abs() * coupling.stiffness_ratio
-            / (self.scene.friction() * collision.approach.speed());
-        let model = (!coupling.is_unknown(sliding_share)).then_some(of_size);
-        let friction = self.scene.friction();
-        let input = self.scene.uncertain_inputs().iter().find(|it| it.key == "contact.friction");
-        let of_friction = |to: f64| self.contact.clone().with_friction(to).impact(springs, before);
-        TangentialErrors {
-            discretisation: Some(self.contact.discretisation_error(springs, impact, before)),
-            per_stiffness: change(&self.contact.clone().stiffer_by(STIFFER)) / STIFFER,
-            model,
-            input: input.map(|it| {
-                let [low, high] = [friction - it.uncertainty, friction + it.uncertainty];
-                0.5 * (of_friction(high).velocity - of_friction(low.max(0.0)).velocity).abs()
-            }),
-        }
-    }
 }
 
 /// Returns the tangential contact at a time after first touch (s), linear between the steps.
@@ -296,76 +294,4 @@ fn check(scene: &Scene) -> Result<(), Rejection> {
         return reject("stop.bounces", "is computed for one contact", help);
     }
     Ok(())
-}
-
-/// A model whose bodies move across the axis or spin.
-#[derive(Debug)]
-pub(super) struct Oblique {
-    model: Box<dyn Model>,
-    bodies: ObliqueBodies,
-}
-
-impl Oblique {
-    /// Adds the tangential half to the model of a scene, if it is oblique.
-    ///
-    /// # Errors
-    /// Friction beside an effect with which it is not computed.
-    pub fn around(model: Box<dyn Model>, scene: &Scene) -> Result<Box<dyn Model>, Rejection> {
-        match scene.is_oblique() {
-            true => Ok(Box::new(Self { model, bodies: ObliqueBodies::of(scene)? })),
-            false => Ok(model),
-        }
-    }
-
-    fn stepper(&self, approach: Approach, stepper: Box<dyn Stepper>) -> Box<dyn Stepper> {
-        let bodies = self.bodies.clone();
-        Box::new(Transformed { approach, stepper, transform: move |it| bodies.applied(it, None) })
-    }
-}
-
-impl Model for Oblique {
-    fn setup(&self) -> &ModelSetup {
-        self.model.setup()
-    }
-
-    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        self.model.support(effect, estimate)
-    }
-
-    fn collide(
-        &self,
-        approach: &Approach,
-        request: &OutputRequest,
-        monitor: &mut dyn Monitor,
-    ) -> Collision {
-        let request = OutputRequest { pressures: true, ..request.clone() };
-        let collision = self.model.collide(approach, &request, monitor);
-        let springs = self.model.normal_springs(&collision);
-        self.bodies.applied(collision, springs)
-    }
-
-    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        Some(self.stepper(*approach, self.model.start(approach, request)?))
-    }
-
-    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        Ok(self.stepper(state.approach, self.model.resume(state)?))
-    }
-
-    fn again(
-        &self,
-        before: &RestartState,
-        approach: &Approach,
-        request: &OutputRequest,
-    ) -> Result<Box<dyn Stepper>, Stop> {
-        Ok(self.stepper(*approach, self.model.again(before, approach, request)?))
-    }
-
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
-        self.model.static_contact(force)
-    }
-
-    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
-        self.model.meshes()
-    }
 }

@@ -6,17 +6,11 @@
 //! one collision with its own landing speed, so that a ball comes to rest by adhesion.
 
 use fem_case::{Body, Scene};
-use fem_collision::{
-    Account, Approach, BodyResult, Collision, Ending, Monitor, OutputRequest, StaticContact, Stop,
-};
+use fem_collision::{Account, BodyResult, Collision, Ending};
 use fem_laws::{Adhesion, NormalSprings};
-use fem_mesh::SphereMesh;
 
-use crate::effects::{AdhesionEffect, Effect, Support};
-use crate::estimate::Estimate;
-use crate::models::method::{Model, ModelSetup};
-use crate::models::stepper::{RestartState, Stepper, Transformed};
-use crate::rejection::Rejection;
+use crate::effects::AdhesionEffect;
+use crate::models::altered::Alteration;
 
 /// The bond of two bodies.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +29,23 @@ impl Bond {
         (adhesion.work_of_adhesion() > 0.0).then_some(Self { adhesion, is_fixed })
     }
 
+    /// Returns the velocity of the bodies as one, m/s.
+    fn joint_velocity(&self, collision: &Collision) -> f64 {
+        let velocities = collision.approach.velocities();
+        match self.is_fixed {
+            [true, _] => velocities[0],
+            [_, true] => velocities[1],
+            _ => {
+                let [lower, upper] = collision.bodies.map(|body| body.mass.unwrap_or_default());
+                (lower * velocities[0] + upper * velocities[1]) / (lower + upper)
+            }
+        }
+    }
+}
+
+impl Alteration for Bond {
     /// Returns a collision as it ends with the bond.
-    fn applied(&self, collision: Collision) -> Collision {
+    fn applied(&self, collision: Collision, _: Option<NormalSprings>) -> Collision {
         let speed = collision.approach.speed();
         let restitution = match (&collision.ending, collision.restitution) {
             (Ending::Parted, Some(restitution)) if speed < self.adhesion.sticking_speed() => {
@@ -72,88 +81,5 @@ impl Bond {
             energies,
             ..collision
         }
-    }
-
-    /// Returns the velocity of the bodies as one, m/s.
-    fn joint_velocity(&self, collision: &Collision) -> f64 {
-        let velocities = collision.approach.velocities();
-        match self.is_fixed {
-            [true, _] => velocities[0],
-            [_, true] => velocities[1],
-            _ => {
-                let [lower, upper] = collision.bodies.map(|body| body.mass.unwrap_or_default());
-                (lower * velocities[0] + upper * velocities[1]) / (lower + upper)
-            }
-        }
-    }
-}
-
-/// A model whose bodies have a bond.
-#[derive(Debug)]
-pub(super) struct Sticking {
-    model: Box<dyn Model>,
-    bond: Bond,
-}
-
-impl Sticking {
-    /// Gives the bodies of a model a bond, if there is one.
-    pub fn around(model: Box<dyn Model>, bond: Option<Bond>) -> Box<dyn Model> {
-        match bond {
-            Some(bond) => Box::new(Self { model, bond }),
-            None => model,
-        }
-    }
-
-    fn stepper(&self, approach: Approach, stepper: Box<dyn Stepper>) -> Box<dyn Stepper> {
-        let bond = self.bond;
-        Box::new(Transformed { approach, stepper, transform: move |it| bond.applied(it) })
-    }
-}
-
-impl Model for Sticking {
-    fn setup(&self) -> &ModelSetup {
-        self.model.setup()
-    }
-
-    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        self.model.support(effect, estimate)
-    }
-
-    fn collide(
-        &self,
-        approach: &Approach,
-        request: &OutputRequest,
-        monitor: &mut dyn Monitor,
-    ) -> Collision {
-        self.bond.applied(self.model.collide(approach, request, monitor))
-    }
-
-    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        Some(self.stepper(*approach, self.model.start(approach, request)?))
-    }
-
-    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        Ok(self.stepper(state.approach, self.model.resume(state)?))
-    }
-
-    fn again(
-        &self,
-        before: &RestartState,
-        approach: &Approach,
-        request: &OutputRequest,
-    ) -> Result<Box<dyn Stepper>, Stop> {
-        Ok(self.stepper(*approach, self.model.again(before, approach, request)?))
-    }
-
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
-        self.model.static_contact(force)
-    }
-
-    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
-        self.model.normal_springs(collision)
-    }
-
-    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
-        self.model.meshes()
     }
 }

@@ -31,10 +31,11 @@ use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, Support};
 use crate::estimate::{Estimate, Regime};
+use crate::models::altered::Altered;
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::method_of;
 use crate::models::stepper::{RestartState, Stepper, stopped};
-use crate::models::sticking::{Bond, Sticking};
+use crate::models::sticking::Bond;
 use crate::plan::Plan;
 use crate::rejection::Rejection;
 use bounced::Bounced;
@@ -143,7 +144,7 @@ impl Ball {
         let model = regime
             .and_then(|regime| method_of(&regime.scene).build(&regime, &SharedModels::default()));
         let model = model.map_err(|rejection| Stop::NotMade(rejection.to_string()))?;
-        Ok(Sticking::around(model, self.bond))
+        Ok(Altered::around(model, self.bond))
     }
 
     /// Returns the static contact of the ball at rest, or why there is none.
