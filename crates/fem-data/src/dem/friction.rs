@@ -1,4 +1,4 @@
-//! What the friction laws of DEM codes make of an oblique impact, and the tangential stiffness with which each does so best.
+//! The friction laws of DEM codes in an oblique impact, and the tangential stiffness with which each comes nearest to the computed rebound.
 //!
 //! A code keeps one displacement s, or one force T, where the real contact sticks inside a ring that slides. With the contact radius a,
 //! the normal load F, the tangential modulus G\* of the pair (8 times LAMMPS' own, [`fem_laws::TangentialContact`]) and k = f 2G\*a:
@@ -60,7 +60,7 @@ pub struct PatchRebound {
 /// A law with its best or its fixed stiffness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedFriction {
-    /// The law.
+    /// The tangential law of the code.
     pub law: FrictionLaw,
     /// f: the stiffness over that of Mindlin, of a linear spring over k_n; 0 of [`FrictionLaw::Sliding`].
     pub factor: f64,
