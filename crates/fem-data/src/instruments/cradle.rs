@@ -194,10 +194,10 @@ fn variances(slopes: &[f64; 6], inputs: &[Measured; 6]) -> [f64; 6] {
 /// # Ok::<(), fem_data::table::DataError>(())
 /// ```
 pub fn cradle_trials(table: &Table) -> Result<Vec<Trial>, DataError> {
-    let alpha = table.require(&["alpha"], "alpha_deg")?;
-    let beta = table.require(&["beta"], "beta_deg")?;
-    let of_alpha = table.find(&["alpha_uncertainty"])?;
-    let of_beta = table.find(&["beta_uncertainty"])?;
+    let alpha = table.require("alpha", "alpha_deg")?;
+    let beta = table.require("beta", "beta_deg")?;
+    let of_alpha = table.find("alpha_uncertainty")?;
+    let of_beta = table.find("beta_uncertainty")?;
     let trial = |row: usize| {
         Ok(Trial {
             release: angle(table, row, alpha, of_alpha)?,
