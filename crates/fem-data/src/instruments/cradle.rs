@@ -19,9 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::estimate::FitError;
 use crate::table::{DataError, Table};
 pub use crate::table::{Measured, impossible_restitution};
-
-/// Standard gravity, m/s² (CGPM 1901).
-pub const STANDARD_GRAVITY: f64 = 9.80665;
+pub use fem_material::engineering::STANDARD_GRAVITY;
 
 /// Dimensions of the apparatus.
 #[derive(Debug, Clone, Copy, PartialEq)]
