@@ -27,7 +27,7 @@ pub use error::{
 pub use estimate::approach::approach_of;
 pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
 pub use estimate::plate_impact::free_plate;
-pub use estimate::quasi_static::ting_impact;
+pub use estimate::quasi_static::{surfaces_slip, ting_impact};
 pub use estimate::{Estimate, Regime};
 pub use models::method::{
     Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels,

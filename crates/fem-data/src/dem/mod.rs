@@ -11,6 +11,7 @@
 
 mod entries;
 mod grains;
+mod pair_law;
 
 pub use entries::{
     TsujiVersion, characteristic_velocity, dissipation_of, fit_dissipation, fit_springs,
@@ -18,6 +19,7 @@ pub use entries::{
     tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
 };
 pub use grains::{Grain, PairOfGrains, grain_snippets, grouped};
+pub use pair_law::{DentTable, DentedSpot, PairLaw, Repulsion, ShearSprings};
 
 use std::collections::BTreeMap;
 
