@@ -27,7 +27,8 @@
 //!
 //! and α = 0 where h > 1. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², whatever the step, because their
 //! difference is ½(1−α)/(1+α) (q + q′)²: a code that integrates the motion by velocity Verlet is given no energy by a
-//! spring in contact. A plate in series moves by β∫F dt, with the mean force of the step.
+//! spring in contact. A plate in series moves by β∫F dt, with the mean force of the step. A half-space that radiates waves moves by −γḞ
+//! ([`crate::radiation_damping`]), which in first order is a dashpot beside the springs, of γ(dF/dδ)²; it does not pull.
 //!
 //! The file that `fem-run export --law` writes has the same steps in C.
 
@@ -62,6 +63,8 @@ pub struct ContactSprings {
     pub terms: Vec<PronyTerm>,
     /// Mobility of a plate in series, m/(N s); 0 without one.
     pub plate_mobility: f64,
+    /// γ of half-spaces that radiate waves, m s/N; 0 without one.
+    pub radiation_damping: f64,
 }
 
 /// The state of the springs of one contact.
@@ -141,7 +144,8 @@ impl ContactSprings {
         let (mut edge, [beyond, coarse]) = (smallest, BEYOND);
         while edge < beyond * largest {
             let fine = 1.0 + 1.0 / IN_SMALLEST as f64;
-            edge *= if edge < largest { fine } else { coarse };
+            // Springs of stiffened contacts reach farther than the contact.
+            edge *= if edge < fine * fine * largest { fine } else { coarse };
             edges.push(edge);
         }
         let middle = |ends: &[f64]| 0.5 * (ends[0] + ends[1]);
@@ -156,6 +160,7 @@ impl ContactSprings {
             equilibrium_weight: relaxation.equilibrium_weight(),
             terms: relaxation.terms().to_vec(),
             plate_mobility: 0.0,
+            radiation_damping: 0.0,
         })
     }
 
@@ -169,6 +174,12 @@ impl ContactSprings {
     #[must_use]
     pub fn on_plate(self, plate_mobility: f64) -> Self {
         Self { plate_mobility, ..self }
+    }
+
+    /// Returns the springs of bodies of which half-spaces radiate waves, with γ in m s/N.
+    #[must_use]
+    pub fn radiating(self, radiation_damping: f64) -> Self {
+        Self { radiation_damping, ..self }
     }
 
     /// Returns the stiffness of a tangential spring beside each spring, N/m, for a tangential modulus before relaxation, Pa: that of a
@@ -197,8 +208,13 @@ impl ContactSprings {
         }
     }
 
-    /// Advances the springs by a step, s, at the end of which the bodies have an approach, m; returns the force, N.
-    pub fn force(&self, state: &mut SpringState, approach: f64, time_step: f64) -> f64 {
+    /// Advances the springs by a step, s, at the end of which the bodies have an approach, m, and its rate, m/s; returns the force, N.
+    pub fn force(
+        &self,
+        state: &mut SpringState,
+        [approach, rate]: [f64; 2],
+        time_step: f64,
+    ) -> f64 {
         let factors: Vec<(f64, f64)> = self.terms.iter().map(|term| factors(term, time_step)).collect();
         let gained = self.terms.iter().zip(&factors).map(|(term, (_, gain))| term.weight * gain);
         let stiffness = self.equilibrium_weight + gained.sum::<f64>();
@@ -244,14 +260,14 @@ impl ContactSprings {
         }
         state.deflection += half * (state.force + force);
         state.force = force;
-        force
+        (force + self.radiation_damping * slope * slope * rate).max(0.0)
     }
 
     /// Returns restitution, contact time (s; infinite if the bodies stay together) and largest force (N) of an impact at a speed (m/s)
     /// of bodies with an effective mass, kg, by velocity Verlet in steps of a time, s.
     pub fn impact(&self, mass: f64, speed: f64, time_step: f64) -> [f64; 3] {
         let mut state = self.state();
-        verlet_impact(mass, speed, time_step, |approach| self.force(&mut state, approach, time_step))
+        verlet_impact(mass, speed, time_step, |motion| self.force(&mut state, motion, time_step))
     }
 }
 
@@ -259,18 +275,19 @@ impl ContactSprings {
 const MAX_STEPS: usize = 100_000;
 
 /// Returns restitution, contact time (s; infinite if the bodies stay together) and largest force (N) of an impact at a speed (m/s) of an
-/// effective mass, kg, under a force (N) of the approach (m), by velocity Verlet in steps of a time, s.
+/// effective mass, kg, under a force (N) of the approach (m) and its rate half a step before (m/s), by velocity Verlet in steps of a time,
+/// s.
 pub fn verlet_impact(
     mass: f64,
     speed: f64,
     time_step: f64,
-    mut force_at: impl FnMut(f64) -> f64,
+    mut force_at: impl FnMut([f64; 2]) -> f64,
 ) -> [f64; 3] {
     let (mut approach, mut rate, mut force, mut peak) = (0.0, speed, 0.0, 0.0f64);
     for step in 1..MAX_STEPS {
         rate -= 0.5 * time_step * force / mass;
         approach += time_step * rate;
-        let next = force_at(approach);
+        let next = force_at([approach, rate]);
         rate -= 0.5 * time_step * next / mass;
         peak = peak.max(next);
         if next == 0.0 && rate < 0.0 {

@@ -20,7 +20,9 @@ mod rejection;
 pub mod results;
 mod simulation;
 
-pub use effects::{bounds_of_closed_forms, computed_flow, restitution_with_adhesion};
+pub use effects::{
+    bounds_of_closed_forms, computed_flow, radiating_half_spaces, restitution_with_adhesion,
+};
 pub use error::{
     ComputedCollision, ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound, collide,
 };

@@ -19,7 +19,7 @@ pub use entries::{
     tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
 };
 pub use grains::{Grain, PairOfGrains, grain_snippets, grouped};
-pub use pair_law::{DentTable, DentedSpot, PairLaw, Repulsion, ShearSprings};
+pub use pair_law::{DentTable, DentedSpot, PAIR_CHECK, PairLaw, Repulsion, ShearSprings};
 
 use std::collections::BTreeMap;
 

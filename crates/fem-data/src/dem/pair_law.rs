@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use fem_laws::{ContactSprings, Pair};
 use fem_material::PronyTerm;
 
+/// A C program that checks a compiled law: its impacts, its work under random motions, and its cost.
+pub const PAIR_CHECK: &str = include_str!("pair_check.c");
 /// The text of all headers.
 const TEMPLATE: &str = include_str!("pair_law.h.txt");
 
@@ -170,6 +172,8 @@ impl PairLaw {
                 set("springs", true);
                 set("relaxing", !springs.terms.is_empty());
                 set("plate", springs.plate_mobility > 0.0);
+                set("waves", springs.radiation_damping > 0.0);
+                set("sloped", springs.radiation_damping + springs.plate_mobility > 0.0);
                 set("friction", shear.is_some());
                 set("shear_relaxing", shears);
                 set("relaxing_or_shear", shears || !springs.terms.is_empty());
@@ -234,7 +238,7 @@ impl PairLaw {
     }
 }
 
-fn spring_values(springs: &ContactSprings) -> [(&'static str, String); 8] {
+fn spring_values(springs: &ContactSprings) -> [(&'static str, String); 9] {
     let ContactSprings { gaps, stiffnesses, terms, .. } = springs;
     [
         ("n_springs", gaps.len().to_string()),
@@ -245,6 +249,7 @@ fn spring_values(springs: &ContactSprings) -> [(&'static str, String); 8] {
         ("weights", in_one_line(terms.iter().map(|term| term.weight))),
         ("rates", in_one_line(terms.iter().map(|term| term.relaxation_time.recip()))),
         ("mobility", digits(springs.plate_mobility)),
+        ("waves", digits(springs.radiation_damping)),
     ]
 }
 

@@ -13,9 +13,12 @@ use fem_data::estimate::FitError;
 use fem_data::relaxation::reduced_series;
 use fem_laws::{
     Adhesion, ContactSprings, EndRule, HertzImpact, ImpactQuantities, LawFamily, LawInput, Pair,
-    PairRelaxation, SpringProfile, verlet_impact,
+    PairRelaxation, SpringProfile, radiation_damping, verlet_impact,
 };
-use fem_simulation::{Reduced, computed_flow, restitution_with_adhesion, surfaces_slip};
+use fem_simulation::{
+    Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces, restitution_with_adhesion,
+    surfaces_slip,
+};
 
 use super::chosen_law::plate_of;
 use super::law_fault::LawFault;
@@ -26,8 +29,9 @@ const N_SPEEDS: usize = 17;
 const RANGE: f64 = 10.0;
 /// Factor by which the upper end shrinks until the model has a result.
 const SHRINK: f64 = 0.75;
-/// Relative tolerance of the complex modulus of the reduced series.
-const SERIES_TOLERANCE: f64 = 3e-4;
+/// Relative tolerance of the complex modulus of the reduced series, and factor by which its frequencies reach beyond π/T of both ends.
+const SERIES_TOLERANCE: f64 = 2e-4;
+const SERIES_MARGIN: f64 = 3.0;
 /// Steps per contact of the check, and those that the fastest term of a series resolves.
 const N_STEPS: f64 = 100.0;
 /// Rows of the table of a law that dents, to three times the largest approach.
@@ -47,6 +51,8 @@ pub struct LawExport {
     pub errors: [f64; 3],
     /// Largest contact radius over the effective radius.
     pub contact_ratio: f64,
+    /// The impacts of that model at the speeds of the law's curve, without adhesion.
+    pub impacts: Vec<ImpactQuantities>,
 }
 
 /// The results of the model at a speed.
@@ -62,10 +68,20 @@ impl LawExport {
     /// Returns the law of a case's bodies under a name, from one speed to another, m/s, or over a decade on both sides of that of the case.
     ///
     /// # Errors
-    /// The header has no form for an effect of the case, or the model has no result.
-    pub fn of(case: &Case, name: &str, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
+    /// The header has no form for an effect of the case, the model has no result, or its restitution is a bound at the speed of the case,
+    /// unless bounds are taken as they are.
+    pub fn of(
+        case: &Case,
+        name: &str,
+        speeds: Option<(f64, f64)>,
+        as_elastic: bool,
+    ) -> Result<Self, LawFault> {
         let source = Source::of(case, speeds)?;
         let scene = source.case.scene();
+        let bounds = bounds_of_closed_forms(scene, scene.approach_speed());
+        if !(as_elastic || bounds.is_empty()) {
+            return Err(LawFault::Bound(bounds));
+        }
         let pair = scene.pair().map_err(FitError::from)?;
         let repulsion = source.repulsion(&pair)?;
         let adhesion = adhesion_of(scene, &pair);
@@ -81,7 +97,9 @@ impl LawExport {
         let contact_ratio = widest.fold(0.0, f64::max) / pair.effective_radius();
         let law = PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
         let errors_all = [0, 1, 2].map(largest);
-        let export = Self { law, model: source.model_words(), errors: errors_all, contact_ratio };
+        let impacts = source.computed.iter().map(|at| at.quantities).collect();
+        let model = source.model_words();
+        let export = Self { law, model, errors: errors_all, contact_ratio, impacts };
         let head = export.head(scene, &source.computed, &errors);
         Ok(Self { law: PairLaw { head, ..export.law }, ..export })
     }
@@ -197,13 +215,18 @@ impl Source {
         let relaxation = PairRelaxation::new(lower, upper)?;
         let plate = plate_of(scene)?;
         let radii = [0, N_SPEEDS - 1].map(|k| self.computed[k].quantities.max_contact_radius);
-        if relaxation.terms().is_empty() && plate.is_none() && scene.friction() == 0.0 {
+        let radiating = match is_ting {
+            true => radiating_half_spaces(scene, scene.approach_speed()),
+            false => Vec::new(),
+        };
+        let is_plain = plate.is_none() && scene.friction() == 0.0 && radiating.is_empty();
+        if relaxation.terms().is_empty() && is_plain {
             return Ok(Repulsion::Hertz(profile.elastic(pair, &relaxation, radii[1])));
         }
         let times = [0, N_SPEEDS - 1].map(|k| self.time_scale(pair, k));
         let middle = PI / (times[0] * times[1]).sqrt();
         let reduced = |relaxation: &PairRelaxation| {
-            let range = times.map(|time| PI / time);
+            let range = [PI / (SERIES_MARGIN * times[0]), SERIES_MARGIN * PI / times[1]];
             let (weight, terms) = (relaxation.equilibrium_weight(), relaxation.terms());
             reduced_series(weight, terms, range, times[0] / N_STEPS, SERIES_TOLERANCE)
         };
@@ -215,7 +238,7 @@ impl Source {
             true => plate.mobility(&hertz),
             false => plate.thin_mobility(),
         });
-        let springs = springs.on_plate(mobility);
+        let springs = springs.on_plate(mobility).radiating(radiating.iter().map(radiation_damping).sum());
         let shear = match scene.friction() > 0.0 {
             true => {
                 let (modulus, relaxation) = PairRelaxation::tangential(lower, upper)?;
@@ -260,7 +283,7 @@ impl Source {
 }
 
 /// Returns the case with the model that the law stands for: its own or, in place of elements, Ting's where a body relaxes and Hertz'
-/// elsewhere, of finite size unless the contact is too wide.
+/// or a half-space radiates waves, and Hertz' elsewhere, of finite size unless the contact is too wide.
 fn with_model(case: &Case) -> Result<Case, LawFault> {
     let scene = case.scene();
     match scene.model() {
@@ -269,14 +292,16 @@ fn with_model(case: &Case) -> Result<Case, LawFault> {
             return Ok(case.clone());
         }
         ModelChoice::Law { law, .. } => {
-            let message = format!("--law writes the computed pair, and law {} is a formula", law.family.name());
-            let help = "remove [model], or write the law's own entries with export, without --law";
+            let message = format!("the header holds the computed pair, and law {} is a formula", law.family.name());
+            let help = "remove [model], or export the case without this option";
             return Err(LawFault::Unheld(message, help.into()));
         }
         _ => {}
     }
+    let radiates = !radiating_half_spaces(scene, scene.approach_speed()).is_empty();
+    let is_ting = radiates || scene.bodies().iter().any(relaxes);
     let with_size = |size: bool| {
-        let (ting, hertz) = match scene.bodies().iter().any(relaxes) {
+        let (ting, hertz) = match is_ting {
             true => (Some(TingTable { finite_size: Some(size), ..TingTable::default() }), None),
             false => (None, Some(HertzTable { finite_size: Some(size) })),
         };
@@ -375,10 +400,10 @@ fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
     let (mass, step) = (pair.effective_mass(), time / N_STEPS);
     let [e, contact_time, force] = match repulsion {
         Repulsion::Springs(springs, _) => springs.impact(mass, *speed, step),
-        Repulsion::Hertz(numbers) => verlet_impact(mass, *speed, step, |approach| elastic(numbers, approach)),
+        Repulsion::Hertz(numbers) => verlet_impact(mass, *speed, step, |[approach, _]| elastic(numbers, approach)),
         Repulsion::Dents(table) => {
             let mut spot = table.spot(*speed);
-            verlet_impact(mass, *speed, step, |approach| spot.force(approach))
+            verlet_impact(mass, *speed, step, |[approach, _]| spot.force(approach))
         }
     };
     let of_time = match quantities.contact_time.is_finite() && contact_time.is_finite() {

@@ -55,7 +55,7 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet], detail: Detail) -> 
 
 /// Returns the file of a contact law to compile with the speeds and errors that it was checked with.
 pub fn law_text(export: &LawExport) -> String {
-    let LawExport { law, model, errors: [e, time, force], contact_ratio } = export;
+    let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
     let [slow, fast] = export.speeds();
     let checked = format!(
         "checked from {} to {} at 100 steps per contact, with contacts up to {} of R*: e within {}, contact time within {} %, \
@@ -81,7 +81,7 @@ pub fn law_text(export: &LawExport) -> String {
 
 /// Returns the same for the JSON file, SI.
 pub fn law_json(export: &LawExport, case: &str) -> Value {
-    let LawExport { law, model, errors: [e, time, force], contact_ratio } = export;
+    let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
     let column = |k: usize| law.curve.iter().map(|point| point[k]).collect::<Vec<f64>>();
     json!({
         "case": case,
