@@ -13,6 +13,9 @@ pub const PAIR_CHECK: &str = include_str!("pair_check.c");
 /// The text of all headers.
 const TEMPLATE: &str = include_str!("pair_law.h.txt");
 
+/// The texts of all programs beside a header.
+const HOSTS: &str = include_str!("hosts.txt");
+
 /// The contact law of a pair, the content of its header, SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairLaw {
@@ -132,6 +135,12 @@ impl PairLaw {
     /// Returns the text of the header.
     pub fn header(&self) -> String {
         self.filled(TEMPLATE)
+    }
+
+    /// Returns the programs beside the header, by the names of their files.
+    pub fn hosts(&self) -> Vec<(String, String)> {
+        let blocks = HOSTS.split("\n@ ").skip(1).filter_map(|block| block.split_once('\n'));
+        blocks.map(|(name, text)| (self.filled(name).trim().to_string(), self.filled(text))).collect()
     }
 
     /// Returns a template filled with the values of this law.

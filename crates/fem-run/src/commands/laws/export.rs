@@ -155,7 +155,10 @@ fn law(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failu
         warnings: Vec::new(),
         numbers: law_json(&export, name),
         table: None,
-        texts: vec![(export.law.file_name(), export.law.header())],
+        texts: [(export.law.file_name(), export.law.header())]
+            .into_iter()
+            .chain(export.law.hosts())
+            .collect(),
         fitted: None,
         shown: law_text(&export),
     })
