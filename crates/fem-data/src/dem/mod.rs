@@ -13,6 +13,7 @@
 mod entries;
 mod friction;
 mod grains;
+mod pair_law;
 
 pub use entries::{
     TsujiVersion, characteristic_velocity, dissipation_of, fit_dissipation, fit_springs,
@@ -21,6 +22,7 @@ pub use entries::{
 };
 pub use friction::{FittedFriction, FrictionLaw, PatchRebound};
 pub use grains::{Grain, PairOfGrains, grain_snippets, grouped};
+pub use pair_law::{DentTable, DentedSpot, PAIR_CHECK, PairLaw, Repulsion, ShearSprings};
 
 use std::collections::BTreeMap;
 

@@ -3,3 +3,4 @@
 mod accuracy;
 mod calibrate;
 mod pair_export;
+mod pair_law;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use fem::fit::dem::{Friction, Snippet};
-use fem::laws::{DemExport, PairExport, PairNumbers};
+use fem::laws::{DemExport, LawExport, PairExport, PairNumbers};
 use fem_case::engineering::{Unit, number, show};
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
@@ -69,6 +69,53 @@ fn friction_text(friction: &Friction) -> String {
         " friction: rms error of the velocity with which the contact patch rebounds, over mu v, at {} angles.{linear}",
         friction.rebound.before.len()
     )
+}
+
+/// Returns the file of a contact law to compile with the speeds and errors that it was checked with.
+pub fn law_text(export: &LawExport) -> String {
+    let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
+    let [slow, fast] = export.speeds();
+    let checked = format!(
+        "checked from {} to {} at 100 steps per contact, with contacts up to {} of R*: e within {}, contact time within {} %, \
+         largest force within {} % of {model}. Use it with 50 steps per contact or more.",
+        show(slow, "m/s"),
+        show(fast, "m/s"),
+        number(*contact_ratio, 2),
+        number(*e, 2),
+        number(100.0 * time, 2),
+        number(100.0 * force, 2)
+    );
+    let of_point = |[speed, e, time]: &[f64; 3]| {
+        [show(*speed, "m/s"), format!("{e:.4}"), show(*time, "s")]
+    };
+    format!(
+        "{}: a contact law in C99, {} bytes per contact\n\n{}\n\n{}",
+        law.file_name(),
+        law.memory(),
+        hanging(&checked),
+        headed(">speed|>e|>contact time", law.curve.iter().step_by(4).map(of_point))
+    )
+}
+
+/// Returns the same for the JSON file, SI.
+pub fn law_json(export: &LawExport, case: &str) -> Value {
+    let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
+    let column = |k: usize| law.curve.iter().map(|point| point[k]).collect::<Vec<f64>>();
+    json!({
+        "case": case,
+        "law": {
+            "file": law.file_name(),
+            "model": model,
+            "speed_m_s": column(0),
+            "restitution": column(1),
+            "contact_time_s": column(2),
+            "restitution_error": e,
+            "contact_time_error": time,
+            "peak_force_error": force,
+            "contact_ratio": contact_ratio,
+            "bytes_per_contact": law.memory(),
+        },
+    })
 }
 
 /// Returns which laws the files have, and why not the one that fits best.

@@ -225,8 +225,14 @@ impl Reduced {
     pub fn restitution_error(scene: &Scene, law: LawInput, speed: f64) -> Option<f64> {
         let end_rule = law.family.end_rule().unwrap_or_default();
         let tolerance = fem_case::defaults::LAW_TOLERANCE;
-        let scene =
-            scene.touching_at(speed)?.with_model(ModelChoice::Law { law, end_rule, tolerance });
+        let model = ModelChoice::Law { law, end_rule, tolerance };
+        Self::model_error(&scene.clone().with_model(model), speed)
+    }
+
+    /// Returns the error of the restitution by the reduced model of a scene at an approach speed, m/s, as
+    /// [`Reduced::restitution_error`] does that of a law.
+    pub fn model_error(scene: &Scene, speed: f64) -> Option<f64> {
+        let scene = scene.touching_at(speed)?;
         let setup = Self::new(&scene).ok()?.setup;
         let of_effect = |decision: &EffectDecision| {
             let effect = effect_named(decision.name)?;
