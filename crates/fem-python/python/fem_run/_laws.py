@@ -38,6 +38,7 @@ Law = Literal[
     "tsuji",
     "zhang_whiten",
     "falcon",
+    "hertz_dashpot",
     "mishra_murty",
     "schwager_poeschel",
     "morgado_oppenheim",

@@ -30,6 +30,7 @@ use sticking::Bond;
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
+pub use oblique::ContactPatch;
 pub use reduced::{Reduced, ReducedMethod};
 
 /// All methods, from the cheapest to the most expensive, and the one that selects among them.

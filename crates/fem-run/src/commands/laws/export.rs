@@ -25,7 +25,7 @@ const PAIRS_TOLERANCE: f64 = 0.01;
 
 /// Write input for DEM codes that reproduces the restitutions
 ///
-/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM and, in robotics, Drake and MuJoCo. The restitutions come from
+/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM and, in robotics, Drake, MuJoCo and Newton. The restitutions come from
 /// the sweep.csv of a sweep over speeds, from a measurement, from a law fitted to one or, without --data
 /// and --fit, from the case: its contact law or, in place of another model, the law mean_pressure where bodies flow and
 /// Ting's or Hertz' model elsewhere. Each snippet states the speeds for which it is valid.
@@ -216,7 +216,8 @@ fn fitted(
     };
     let tolerance = tolerance.unwrap_or_else(|| curve.default_tolerance());
     let fitted = DemExport::of(case, curve, tolerance)?;
-    let snippets = fitted.export.snippets()?;
+    let mut snippets = fitted.export.snippets()?;
+    snippets.sort_by(|one, other| one.validity[2].total_cmp(&other.validity[2]));
     Ok((fitted, snippets))
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use fem::fit::dem::Snippet;
+use fem::fit::dem::{Friction, Snippet};
 use fem::laws::{DemExport, PairExport, PairNumbers};
 use fem_case::engineering::{Unit, number, show};
 use fem_laws::LawFamily;
@@ -25,14 +25,19 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet], detail: Detail) -> 
             valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
             format!("{worst:.3}"),
         ];
-        let input = entries.collect::<Vec<_>>().join(", ");
+        let rubbing = export.friction.as_ref().map(|friction| friction.fitted.get(snippet.name));
+        cells.extend(
+            rubbing.map(|fit| fit.map_or("-".to_string(), |fit| format!("{:.3}", fit.rms))),
+        );
+        let stiffness = rubbing.flatten().filter(|fit| fit.factor > 0.0);
+        let stiffness = stiffness.map(|fit| format!("k_t factor {}", number(fit.factor, 3)));
+        let input = entries.chain(stiffness).collect::<Vec<_>>().join(", ");
         cells.extend(Some(input).filter(|_| detail == Detail::All));
         cells
     };
-    let header = match detail {
-        Detail::All => "file|valid|>worst|input",
-        Detail::Short => "file|valid|>worst",
-    };
+    let rubs = if export.friction.is_some() { "|>friction" } else { "" };
+    let input = if detail == Detail::All { "|input" } else { "" };
+    let header = format!("file|valid|>worst{rubs}{input}");
     let of_scatter = match curve.law {
         _ if export.tolerance != curve.scatter => String::new(),
         Some(law) => format!(", the error of the law {}", law.name()),
@@ -50,13 +55,27 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet], detail: Detail) -> 
         number(export.tolerance, 2),
         export.restitution
     );
-    format!("{heading}\n\n{}\n\n{}", hanging(&judged), headed(header, snippets.iter().map(row)))
+    let judged = judged + &export.friction.as_ref().map_or_else(String::new, friction_text);
+    format!("{heading}\n\n{}\n\n{}", hanging(&judged), headed(&header, snippets.iter().map(row)))
+}
+
+/// Returns what the column of friction means, and the spring for codes without a file.
+fn friction_text(friction: &Friction) -> String {
+    let linear = friction.fitted.get("mfix_lsd.dat").map_or_else(String::new, |fit| {
+        let (ratio, rms) = (number(fit.factor, 2), number(fit.rms, 2));
+        format!(" Other codes with a linear spring: k_t = {ratio} k_n makes {rms}.")
+    });
+    format!(
+        " friction: rms error of the velocity with which the contact patch rebounds, over mu v, at {} angles.{linear}",
+        friction.rebound.before.len()
+    )
 }
 
 /// Returns which laws the files have, and why not the one that fits best.
 pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
     let own = match fitted.curve.law {
         Some(LawFamily::KuwabaraKono) => Some("lammps_viscoelastic.in"),
+        Some(LawFamily::HertzDashpot) => Some("lammps_velocity.in"),
         Some(LawFamily::Tsuji) => Some("lammps_tsuji.in"),
         Some(LawFamily::Linear) => Some("liggghts_hooke.in"),
         Some(LawFamily::Mdr) => Some("lammps_mdr.in"),
@@ -74,13 +93,14 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
             "{file} has the law {law}. Each other file has the law of its code that is nearest to it."
         ),
         (Some(law), None) => {
-            let dents = match fitted.export.springs {
+            let dents = match fitted.export.of_speed("luding") {
                 Some(_) => ", LAMMPS' mdr and Luding's springs",
                 None => "",
             };
             format!(
                 "None of these codes has the law {law}. Each file has the law of its code that is nearest to it: one \
-                 e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in), Hunt-Crossley (drake_point_contact.py)\
+                 e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in), a constant dashpot (lammps_velocity.in), Hunt-Crossley \
+                 (drake_point_contact.py)\
                  {dents}."
             )
         }

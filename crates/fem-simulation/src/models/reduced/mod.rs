@@ -149,6 +149,20 @@ impl Reduced {
         Self::of(&Regime::of(scene.clone())?)
     }
 
+    /// Returns the loads of the contact's springs at an approach speed, m/s; `None` of an impact that is not computed.
+    pub(super) fn springs_at(&self, speed: f64) -> Option<NormalSprings> {
+        let impact = self.impact(speed).ok()?;
+        let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
+            ModelChoice::Ting { .. } => body.material().cloned(),
+            _ => Some(body.material()?.without_relaxation()),
+        });
+        let [lower, upper] = materials.each_ref().map(Option::as_ref);
+        let relaxation = PairRelaxation::new(lower, upper).ok()?;
+        let gravity = self.scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
+        let (pair, law, n_steps) = (&self.pair, self.law(), NormalSprings::N_STEPS);
+        NormalSprings::of_impact(&impact, pair, &relaxation, law, gravity, n_steps).ok()
+    }
+
     /// Builds the reduced model of a scene in its regime.
     ///
     /// # Errors
@@ -273,16 +287,7 @@ impl Model for Reduced {
     }
 
     fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
-        let impact = self.impact(collision.approach.speed()).ok()?;
-        let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
-            ModelChoice::Ting { .. } => body.material().cloned(),
-            _ => Some(body.material()?.without_relaxation()),
-        });
-        let [lower, upper] = materials.each_ref().map(Option::as_ref);
-        let relaxation = PairRelaxation::new(lower, upper).ok()?;
-        let gravity = self.scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
-        let (pair, law, n_steps) = (&self.pair, self.law(), NormalSprings::N_STEPS);
-        NormalSprings::of_impact(&impact, pair, &relaxation, law, gravity, n_steps).ok()
+        self.springs_at(collision.approach.speed())
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
