@@ -1,4 +1,4 @@
-//! What the page gets as JSON: errors of a case, materials of the library, a run before, during and after it.
+//! Answers for the page as JSON: errors of a case, materials of the library, a run before, during and after it.
 
 use fem::effects::{EFFECTS, Effect, EffectKind};
 use fem::{CaseFile, Collision, Cost, HistoryRow, Summary};

@@ -100,10 +100,11 @@ fn of_last_digits(cell: &str) -> Option<[String; 2]> {
     Some([value.to_string(), uncertainty])
 }
 
-/// Whether a cell names what is computed from the rows above it.
+/// Whether a cell names what is computed from the rows above it. A record has millions of cells, which begin with a digit.
 pub(super) fn is_mean(cell: &str) -> bool {
-    const WORDS: &str = "mean average avg mittelwert mittel moyenne median std sd standard_deviation standardabweichung";
-    is_one_of(&cell.trim_end_matches([':', '.']).to_lowercase().replace(' ', "_"), WORDS)
+    const WORDS: &str = "mean|average|avg|mittelwert|mittel|moyenne|median|std|sd|standard deviation|standardabweichung";
+    let is_word = |word: &str| cell.trim_end_matches([':', '.']).eq_ignore_ascii_case(word);
+    cell.starts_with(char::is_alphabetic) && WORDS.split('|').any(is_word)
 }
 
 /// Whether a cell below a name is a unit, `cm`, `[cm]` or `(cm)`.

@@ -75,8 +75,10 @@ pub(super) fn tabs_for_blanks(text: &str) -> Cow<'_, str> {
         return text.into();
     }
     let tabs = |line: &str| line.split_whitespace().collect::<Vec<_>>().join("\t");
-    let line = |_, line| Some(if is_comment(line) { line.into() } else { tabs(line).into() });
-    with_lines(text, line).into()
+    with_lines(text, |_, line| {
+        Some(if line.starts_with('#') { line.into() } else { tabs(line).into() })
+    })
+    .into()
 }
 
 /// Returns the record of an instrument as a table below a header, and the number of lines that were added above it.

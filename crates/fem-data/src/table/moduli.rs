@@ -303,18 +303,8 @@ impl<'a> Columns<'a> {
                 (None, ..) => return Err(missing("the storage modulus")),
             }
         };
-        let said = || moduli.iter().filter_map(|(column, _)| roles[*column]?.1);
-        let named = said().next();
-        if said().any(|other| Some(other) != named) {
-            let message = "one modulus is Young's and the other one of shear";
-            return Err(table.header_fault(message).with_help("both are of one test"));
-        }
-        if let (Some(given), Some(named)) = (given, named)
-            && given != named
-        {
-            let message = format!("the columns are of the {}", named.key().replace('_', " "));
-            return Err(table.header_fault(message).with_help("leave out --modulus"));
-        }
+        let said: Vec<_> = moduli.iter().filter_map(|(column, _)| roles[*column]?.1).collect();
+        let named = agreed(table, &said, given)?;
         Ok(Self { table, abscissa, temperature, moduli, named })
     }
 
@@ -409,6 +399,26 @@ impl<'a> Columns<'a> {
         };
         Err(self.table.cell_fault(row, column, value, help))
     }
+}
+
+/// Returns the modulus that all columns mean which say it, and which is the one of the caller, if that is given.
+fn agreed(
+    table: &Table,
+    said: &[Modulus],
+    given: Option<Modulus>,
+) -> Result<Option<Modulus>, DataError> {
+    let named = said.first().copied();
+    if said.iter().any(|other| Some(*other) != named) {
+        let message = "one modulus is Young's and the other one of shear";
+        return Err(table.header_fault(message).with_help("both are of one test"));
+    }
+    if let (Some(given), Some(named)) = (given, named)
+        && given != named
+    {
+        let message = format!("the columns are of the {}", named.key().replace('_', " "));
+        return Err(table.header_fault(message).with_help("leave out --modulus"));
+    }
+    Ok(named)
 }
 
 /// Largest relative difference of two columns of one quantity, which are rounded.
