@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use super::rebounds::rebound_columns;
+
 /// The end of a column's name that is a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct UnitSuffix {
@@ -19,7 +21,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 43] = [
+const ENDINGS: [UnitSuffix; 44] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -32,6 +34,7 @@ const ENDINGS: [UnitSuffix; 43] = [
     // A rate of phase counts in cycles per second, like a frequency.
     ending("_rad_s", 0.5 / PI, [0, 0, -1]),
     ending("_per_s", 1.0, [0, 0, -1]),
+    ending("_rpm", 1.0 / 60.0, [0, 0, -1]),
     ending("_us", 1e-6, [0, 0, 1]),
     ending("_ms", 1e-3, [0, 0, 1]),
     ending("_ns", 1e-9, [0, 0, 1]),
@@ -83,9 +86,10 @@ const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
 /// Endings of names with the units that the units of a case do not have.
-const OTHER_UNITS: [(&str, &[&str]); 13] = [
+const OTHER_UNITS: [(&str, &[&str]); 14] = [
     ("_rad_s", &["rad/s", "rad s^-1", "rad·s⁻¹"]),
     ("_per_s", &["1/s", "s^-1", "s⁻¹"]),
+    ("_rpm", &["rpm"]),
     ("_deg", &["deg", "°"]),
     ("_rad", &["rad"]),
     ("_degc", &["C", "°C", "º C", "ºC", "degC"]),
@@ -392,5 +396,5 @@ pub(super) fn column_names() -> Vec<&'static str> {
         &RECORDS,
         &MODULI,
     ];
-    all.concat()
+    [all.concat(), rebound_columns()].concat()
 }

@@ -2,4 +2,5 @@
 
 mod accuracy;
 mod calibrate;
+mod friction;
 mod pair_export;
