@@ -70,7 +70,7 @@ pub use case::{Case, read_data_file, text_at};
 pub use case_edit::{central_change, half_difference};
 pub use error::CaseError;
 pub use fem_material::engineering;
-pub use quantity::temperature::parse_temperature;
+pub use quantity::uncertain::parse_temperature;
 pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
     Acceleration, Angle, Bytes, Count, Damping, Density, Length, Mass, Number, Quantity,

@@ -6,7 +6,7 @@
 //! estimate     least squares: contact laws and Prony series from restitutions
 //! instruments  bounce times, heights, sound, forces and angles to restitutions with their errors
 //! relaxation   moduli over frequency or time to a Prony series
-//! dem          the numbers that DEM codes, Drake and MuJoCo ask for
+//! dem          the numbers that DEM codes, Drake, MuJoCo and Newton ask for
 //! ```
 
 pub mod dem;

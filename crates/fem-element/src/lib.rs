@@ -11,14 +11,12 @@
 //!   tests;
 //! * [`largest_eigenvalue`]: the largest eigenvalue of an element's stiffness against its masses.
 
-mod b_bar;
 mod eigenvalue;
 mod geometry;
 mod mean_gradient;
 mod stiffness;
 
-pub use b_bar::b_bar;
 pub use eigenvalue::largest_eigenvalue;
 pub use geometry::{QuadGeometry, nodal_volumes};
 pub use mean_gradient::{mean_gradient, mean_gradient_stiffness};
-pub use stiffness::{ElementMatrix, ElementStiffness};
+pub use stiffness::{ElementMatrix, ElementStiffness, b_bar};

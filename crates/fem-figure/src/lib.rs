@@ -19,7 +19,6 @@ pub mod contour;
 mod curve;
 mod panel;
 mod scale;
-mod simplify;
 mod style;
 
 pub use chart::{Axis, Chart};

@@ -8,9 +8,9 @@
 use std::fmt::Write;
 
 use crate::chart::{Chart, VisibleCurve};
+use crate::clip::simplify;
 use crate::curve::{LineStyle, Mark, Marker};
 use crate::scale::{Room, Scale};
-use crate::simplify::simplify;
 use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, LETTER, escaped, number, words};
 
 /// Size of a chart of a page, and of one in a document.

@@ -84,6 +84,13 @@ impl Adhesion {
         unit * (jkr_energy() * self.tabor()).max(dmt_energy())
     }
 
+    /// Returns the force that pulls the spheres off, N: 3πΓR*/2 of soft or large spheres (Johnson, eq. 5.49), 2πΓR* of hard or small ones,
+    /// in Derjaguin's approximation.
+    pub fn pull_off_force(&self) -> f64 {
+        let factor = if self.is_jkr() { 1.5 } else { 2.0 };
+        factor * PI * self.work_of_adhesion * self.pair.effective_radius()
+    }
+
     /// Returns the sticking speed v_s, m/s, below which elastic spheres stay together.
     pub fn sticking_speed(&self) -> f64 {
         (2.0 * self.separation_energy() / self.pair.effective_mass()).sqrt()

@@ -41,6 +41,7 @@
 
 mod adhesion;
 mod contact_motion;
+mod contact_springs;
 mod dent_impact;
 mod difference;
 mod error;
@@ -62,6 +63,7 @@ mod tangential;
 mod ting;
 
 pub use adhesion::{Adhesion, RANGE_OF_ATTRACTION};
+pub use contact_springs::{ContactSprings, SpringProfile, SpringState, verlet_impact};
 pub use difference::{ImpactDifference, RelativeError, rigid_partner};
 pub use error::LawError;
 pub use family::{

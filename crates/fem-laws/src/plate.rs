@@ -32,7 +32,7 @@ use fem_material::Material;
 
 use crate::error::LawError;
 use crate::hertz::HertzImpact;
-use crate::numerics::functions::power;
+use crate::numerics::power;
 
 /// λ from which a ball sinks in with the plate: the restitution by Zener's equation, 0.679 λ⁻⁵, is then below
 /// [`MIN_RESTITUTION`](crate::MIN_RESTITUTION).

@@ -24,7 +24,7 @@ use fem_material::Material;
 use statrs::function::beta::beta;
 
 use crate::hertz::HertzImpact;
-use crate::numerics::functions::sin_cos;
+use crate::numerics::sin_cos;
 
 /// Points of the midpoint rule over each stretch; the integrands are smooth and periodic in the angle
 /// that takes their place, so that it converges faster than any power.

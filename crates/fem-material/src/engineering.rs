@@ -1,5 +1,8 @@
 //! SI numbers in engineering notation: `65.12 µs`, `2.31 GPa`.
 
+/// Standard gravity, m/s² (CGPM 1901).
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
 /// Prefixes of powers of 1000, and the power of the first.
 const PREFIXES: [&str; 11] = ["a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
 const FIRST_POWER: i32 = -6;

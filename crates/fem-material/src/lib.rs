@@ -35,4 +35,4 @@ pub use flow::{FlowPoint, FlowRule, FlowStress, Hardening, MAX_FLOW_ROWS, RateFa
 pub use material::Material;
 pub use prony::{ActsOn, PronySeries, PronyTerm, maxwell_element, relaxation_at};
 pub use relaxation_step::RelaxationStep;
-pub use shift::{ShiftLaw, ZERO_CELSIUS};
+pub use shift::{GAS_CONSTANT, ShiftLaw, ZERO_CELSIUS};

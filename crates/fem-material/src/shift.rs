@@ -15,6 +15,8 @@
 
 /// The temperature of 0 °C, K.
 pub const ZERO_CELSIUS: f64 = 273.15;
+/// The gas constant, J/(mol K), exact by the SI of 2019.
+pub const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
 /// How relaxation times depend on temperature.
 #[derive(Debug, Clone, PartialEq)]

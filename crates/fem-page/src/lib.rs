@@ -11,8 +11,6 @@
 
 mod charts;
 mod contour;
-mod fault;
-mod library_entry;
 pub mod module;
 mod outcome;
 mod session;
@@ -20,8 +18,8 @@ mod sharing;
 
 pub use charts::{ChartSpec, Charts, CurveSpec, MarkSpec};
 pub use contour::StressPicture;
-pub use fault::CaseFault;
-pub use library_entry::LibraryEntry;
-pub use outcome::{CostEstimate, EffectExplanation, FrameInfo, RunOutcome, RunStart};
+pub use outcome::{
+    CaseFault, CostEstimate, EffectExplanation, FrameInfo, LibraryEntry, RunOutcome, RunStart,
+};
 pub use session::{RecordedAmount, Session};
 pub use sharing::EnergyShares;

@@ -17,8 +17,7 @@ use std::sync::{Mutex, Once, PoisonError};
 use serde::Serialize;
 
 use crate::charts::ChartSpec;
-use crate::fault::CaseFault;
-use crate::library_entry::LibraryEntry;
+use crate::outcome::{CaseFault, LibraryEntry};
 use crate::session::{RecordedAmount, Session};
 
 thread_local! {

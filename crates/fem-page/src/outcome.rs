@@ -1,7 +1,9 @@
-//! Everything that the page receives before and after a run.
+//! What the page gets as JSON: errors of a case, materials of the library, a run before, during and after it.
 
 use fem::effects::{EFFECTS, Effect, EffectKind};
 use fem::{CaseFile, Collision, Cost, HistoryRow, Summary};
+use fem_case::CaseError;
+use fem_case::library::{materials, table_text};
 use serde::Serialize;
 
 use crate::charts::Charts;
@@ -116,4 +118,65 @@ fn force_at(rows: &[HistoryRow], time: f64) -> Option<f64> {
     let length = after.time - before.time;
     let share = if length > 0.0 { (time - before.time) / length } else { 0.0 };
     Some(before.contact_force + share * (after.contact_force - before.contact_force))
+}
+
+/// An error of a case, its position, and what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CaseFault {
+    /// The error, in one sentence.
+    pub message: String,
+    /// The allowed values, or what to do.
+    pub help: Option<String>,
+    /// The dotted path of the key.
+    pub key: Option<String>,
+    /// Line in the text, from 1; with `column`.
+    pub line: Option<usize>,
+    /// Column in characters, from 1.
+    pub column: Option<usize>,
+    /// The whole error as plain text, with the line of the case.
+    pub text: String,
+    /// Further errors in the same case.
+    pub others: Vec<CaseFault>,
+}
+
+impl From<CaseError> for CaseFault {
+    fn from(mut error: CaseError) -> Self {
+        let others = error.take_others().into_iter().map(Self::from).collect();
+        Self {
+            others,
+            message: error.message().to_string(),
+            help: error.help().map(String::from),
+            key: error.key().map(String::from),
+            line: error.line(),
+            column: error.column(),
+            text: error.to_string(),
+        }
+    }
+}
+
+/// A material of the library.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LibraryEntry {
+    /// Name, without `lib:`.
+    pub name: &'static str,
+    /// Title for the list of materials.
+    pub title: &'static str,
+    /// Source of the numbers.
+    pub source: &'static str,
+    /// Range of validity, and scatter.
+    pub range: &'static str,
+    /// Its table in a case, as TOML; relaxation comes last.
+    pub text: String,
+}
+
+impl LibraryEntry {
+    /// Returns all materials, by name.
+    pub fn all() -> Vec<Self> {
+        let entry = |(name, material): (&'static String, &'static fem_case::library::Material)| {
+            let text = table_text(name)?;
+            let (title, source, range) = (&material.title, &material.source, &material.range);
+            Some(Self { name, title, source, range, text })
+        };
+        materials().iter().filter_map(entry).collect()
+    }
 }

@@ -8,7 +8,7 @@ use fem_command::{Failure, JobInput, Timed};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::failure::OrRaise;
+use crate::OrRaise;
 use crate::outcome::Outcome;
 use crate::watch::{BROKEN, RunWatch, watched};
 

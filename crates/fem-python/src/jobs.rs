@@ -8,8 +8,8 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
+use crate::OrRaise;
 use crate::case::Case;
-use crate::failure::OrRaise;
 
 /// Runs the job of a command such as `fit` without Python's lock, and returns its numbers as JSON; see `fem_command::numbers_of`.
 /// Data are a name and the bytes of a file.

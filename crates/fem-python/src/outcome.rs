@@ -11,7 +11,7 @@ use numpy::{PyArray1, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 
-use crate::failure::{OrRaise, raised};
+use crate::{OrRaise, raised};
 
 /// A collision with its simulation.
 #[pyclass(frozen, module = "fem_run._native")]

@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
 use serde_json::Value;
 
+use crate::OrRaise;
 use crate::case::Case;
-use crate::failure::OrRaise;
 use crate::watch::{WatchState, watched};
 
 /// Time that stopped members get to end; their results so far are returned in any case.

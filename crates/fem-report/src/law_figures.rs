@@ -165,7 +165,7 @@ fn overlap_chart(model: &Model, values: &[f64], speed: f64, time: Axis) -> Resul
 /// Intervals of a drawn curve of e or T over speed.
 const N_DRAWN: usize = 60;
 
-/// Returns `export.svg`: restitution and contact time over speed, of the data and of three kinds of law.
+/// Returns `export.svg`: restitution and contact time over speed, of the data and of the laws.
 pub fn export_figure(fitted: &DemExport) -> String {
     let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
     let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
@@ -183,9 +183,9 @@ pub fn export_figure(fitted: &DemExport) -> String {
         };
         let law = |(law, colour): (&FittedLaw, &'static str)| {
             let points = drawn().filter_map(|speed| Some((speed, of_law(law, speed)?)));
-            Curve::new(law.name, mark(law), points.collect()).coloured(colour)
+            Curve::new(law.name(), mark(law), points.collect()).coloured(colour)
         };
-        let colours = [0, 2, 3, 4, 5].map(|k| COLOURS[k]);
+        let colours = [0, 2, 3, 4, 5, 6].map(|k| COLOURS[k]);
         let laws = fitted.laws.iter().zip(colours).map(law);
         let (name, k) = match (is_measured, curve.law) {
             (true, None) => ("data", 1),

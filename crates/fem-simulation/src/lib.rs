@@ -20,22 +20,24 @@ mod rejection;
 pub mod results;
 mod simulation;
 
-pub use effects::{bounds_of_closed_forms, computed_flow, restitution_with_adhesion};
+pub use effects::{
+    bounds_of_closed_forms, computed_flow, radiating_half_spaces, restitution_with_adhesion,
+};
 pub use error::{
     ComputedCollision, ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound, collide,
 };
 pub use estimate::approach::approach_of;
 pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
 pub use estimate::plate_impact::free_plate;
-pub use estimate::quasi_static::ting_impact;
+pub use estimate::quasi_static::{surfaces_slip, ting_impact};
 pub use estimate::{Estimate, Regime};
 pub use models::method::{
     Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels,
 };
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
-    AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, METHODS,
-    ModelCandidate, ObliqueRebound, ObliqueResponse, Reduced, ReducedMethod, method_of,
+    AutoMethod, Condensed, CondensedMethod, ContactPatch, ExpectedError, Explicit, ExplicitMethod,
+    METHODS, ModelCandidate, ObliqueRebound, ObliqueResponse, Reduced, ReducedMethod, method_of,
     selected_model,
 };
 pub use plan::body_source::build_meshes;

@@ -2,7 +2,7 @@
 
 use divan::Bencher;
 use divan::counter::BytesCount;
-use fem_vtk::{Encoding, VtuWriter, pad_vectors};
+use fem_vtk::{VtuWriter, pad_vectors};
 
 /// Cells a side: 2,600 cells as the glass pair has them, and four times as many.
 const SIDES: [usize; 2] = [51, 102];
@@ -19,7 +19,8 @@ fn field(n: usize, k: usize) -> Vec<f64> {
     (0..n).map(|i| ((i * (k + 3)) as f64 * 1e-3).sin() * 1e6 / (1.0 + i as f64)).collect()
 }
 
-fn write(bencher: Bencher<'_, '_>, side: usize, encoding: Encoding) {
+#[divan::bench(args = SIDES)]
+fn write(bencher: Bencher<'_, '_>, side: usize) {
     let row = side + 1;
     let points: Vec<[f64; 3]> =
         (0..row * row).map(|k| [(k % row) as f64 * 3e-5, (k / row) as f64 * 3e-5, 0.0]).collect();
@@ -35,7 +36,6 @@ fn write(bencher: Bencher<'_, '_>, side: usize, encoding: Encoding) {
     let path = folder.path().join("snapshot.vtu");
     bencher.counter(BytesCount::of_many::<f64>(n_numbers)).bench_local(|| {
         let mut writer = VtuWriter::new(&points, &quads)
-            .encoding(encoding)
             .time(1e-5)
             .point_data("displacement", 3, &vectors)
             .point_data("velocity", 3, &vectors);
@@ -44,14 +44,4 @@ fn write(bencher: Bencher<'_, '_>, side: usize, encoding: Encoding) {
         }
         writer.write(&path)
     });
-}
-
-#[divan::bench(args = SIDES)]
-fn inline(bencher: Bencher<'_, '_>, side: usize) {
-    write(bencher, side, Encoding::default());
-}
-
-#[divan::bench(args = SIDES)]
-fn raw(bencher: Bencher<'_, '_>, side: usize) {
-    write(bencher, side, Encoding::AppendedRaw);
 }

@@ -40,6 +40,5 @@ pub use error::Error;
 pub use read::reader::{QuadMesh, ReadArray, VtuFile, read_quad_mesh};
 pub use values::{Numbers, Values, pad_vectors};
 pub use write::collection::write_collection;
-pub use write::encoding::Encoding;
 pub use write::grid::VtuGrid;
 pub use write::writer::VtuWriter;

@@ -14,8 +14,6 @@ pub enum Values<'a> {
     UInt8(&'a [u8]),
     /// Values of type `i32`.
     Int32(&'a [i32]),
-    /// Values of type `u32`.
-    UInt32(&'a [u32]),
     /// Values of type `i64`.
     Int64(&'a [i64]),
 }
@@ -40,7 +38,7 @@ macro_rules! values_from {
     )*};
 }
 
-values_from!(Float64(f64), Float32(f32), UInt8(u8), Int32(i32), UInt32(u32), Int64(i64));
+values_from!(Float64(f64), Float32(f32), UInt8(u8), Int32(i32), Int64(i64));
 
 impl Values<'_> {
     pub(crate) fn len(&self) -> usize {
@@ -49,7 +47,6 @@ impl Values<'_> {
             Self::Float32(values) => values.len(),
             Self::UInt8(values) => values.len(),
             Self::Int32(values) => values.len(),
-            Self::UInt32(values) => values.len(),
             Self::Int64(values) => values.len(),
         }
     }
@@ -60,7 +57,6 @@ impl Values<'_> {
             Self::Float32(_) => ScalarType::Float32,
             Self::UInt8(_) => ScalarType::UInt8,
             Self::Int32(_) => ScalarType::Int32,
-            Self::UInt32(_) => ScalarType::UInt32,
             Self::Int64(_) => ScalarType::Int64,
         }
     }
@@ -83,7 +79,6 @@ impl Values<'_> {
             Self::Float32(values) => little_endian(values, f32::to_le_bytes),
             Self::UInt8(values) => values.to_vec(),
             Self::Int32(values) => little_endian(values, i32::to_le_bytes),
-            Self::UInt32(values) => little_endian(values, u32::to_le_bytes),
             Self::Int64(values) => little_endian(values, i64::to_le_bytes),
         }
     }

@@ -59,5 +59,5 @@ pub use fem_collision::{
 pub use fem_condensed::CondensedPair;
 pub use fem_explicit::{ExplicitBodies, ModelError};
 pub use fem_laws::{HertzImpact, Impact, LawError, Pair};
-pub use fem_material::{Material, PronySeries, ShiftLaw, ZERO_CELSIUS};
+pub use fem_material::{GAS_CONSTANT, Material, PronySeries, ShiftLaw, ZERO_CELSIUS};
 pub use fem_mesh::SphereMesh;

@@ -8,6 +8,7 @@ mod hard;
 mod hertz_field;
 mod mechanics;
 mod order;
+mod pair_law;
 mod paper;
 mod pressed_sphere;
 mod random_scenes;
@@ -37,6 +38,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("hard_random", random_scenes::model_differences_study),
     ("hertz_field", hertz_field::study),
     ("invariance", mechanics::invariance::study),
+    ("pair_law", pair_law::study),
     ("paper_contact_stress", paper::contact_stress::study),
     ("paper_contact_time", paper::contact_time::study),
     ("paper_contours", paper::contours::study),

@@ -2,8 +2,7 @@
 //! kind is a type parameter only here; scenes use `f64`.
 
 pub(crate) mod range;
-pub(crate) mod temperature;
-mod uncertain;
+pub(crate) mod uncertain;
 pub(crate) mod unit_table;
 pub(crate) mod units;
 
@@ -173,11 +172,12 @@ impl<K: QuantityKind> Quantity<K> {
             Written::Si(value) if value.is_finite() => Ok((*value, None)),
             Written::Si(value) => Err(QuantityError::NotFinite(*value)),
             // A scale of temperature has an offset.
-            Written::Text(text) if K::INFO.si == "K" => temperature::parse_uncertain(text)
-                .ok_or_else(|| {
+            Written::Text(text) if K::INFO.si == "K" => {
+                uncertain::parse_uncertain_temperature(text).ok_or_else(|| {
                     let message = "its scale is degC, K or degF, above absolute zero";
                     QuantityError::Unit(UnitError::Malformed(message.to_string()))
-                }),
+                })
+            }
             Written::Text(text) => match uncertain::parse(text) {
                 Ok((value, uncertainty, found)) if found == K::INFO.dimension => {
                     Ok((value, uncertainty))

@@ -15,7 +15,7 @@ use toml::de::DeTable;
 
 use crate::case::bytes_at;
 use crate::error::CaseError;
-use crate::quantity::temperature::parse_temperature;
+use crate::quantity::uncertain::parse_temperature;
 use crate::quantity::units::{Dimension, parse_quantity};
 use crate::quantity::{Number, Quantity};
 use crate::source::document::Document;

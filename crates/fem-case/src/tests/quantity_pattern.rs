@@ -4,7 +4,7 @@
 //! expression cannot check the dimension of products, negative powers and parentheses, so any of known symbols are
 //! accepted. There is no look-around, which some validators lack.
 
-use crate::quantity::temperature::SCALES;
+use crate::quantity::uncertain::SCALES;
 use crate::quantity::unit_table::{PREFIXES, UNITS};
 
 /// A number, with an ASCII or a Unicode minus sign.

@@ -23,6 +23,9 @@
 //! `mdr` is the law of [`fem_laws::laws::mdr()`]. Its plane strain modulus of the spheres is entered as 2E\* and, of one sphere on a
 //! flat, as E\*. Run in LAMMPS by `.ci/check_dem.py`.
 //!
+//! `damping velocity` is a constant dashpot, C = the entered coefficient, cut off at zero force by `limit_damping`
+//! (`gran_sub_mod_damping.cpp`, `gran_sub_mod_normal.cpp`).
+//!
 //! **Luding's springs** without adhesion, [`fem_laws::laws::luding()`]: LIGGGHTS' `hooke/hysteresis`, whose k₁ is that of `hooke` and
 //! whose dashpot is off at a restitution of 1 (`normal_model_hooke_hysteresis.h`); YADE's LudingPM (`LudingPM.cpp`, run in YADE by
 //! `.ci/check_dem.py` where it is installed); MercuryDPM's `LinearPlasticViscoelasticSpecies`
@@ -117,14 +120,29 @@
 //! while that pushes them apart (*MuJoCo documentation*, Computation, Solver parameters): a linear spring and dashpot
 //! whose masses cancel, κ = k/m*, β = c/m*, and whose contact ends at zero force. So one `solref` makes one e and one
 //! contact time for all sizes. Run in MuJoCo by `.ci/check_robotics.py`.
+//!
+//! **Newton**, the solvers that integrate penalty forces (`SolverSemiImplicit`, `SolverFeatherstone`): the mean of both bodies'
+//! `contactStiffness` k and `contactDamping` c makes
+//!
+//! ```math
+//! F = k\,\xi + c\,\max(\dot\xi, 0)
+//! ```
+//!
+//! (`eval_body_contact`, `kernels_contact.py` of newton 1.8.0): the dashpot acts in the approach only, so that with ζ = c/(2√(m\*k)) and
+//! cos φ = ζ
+//!
+//! ```math
+//! e = \exp\frac{-\zeta\varphi}{\sqrt{1-\zeta^2}}, \qquad T = \sqrt{\frac{m^*}k}\left(\frac\varphi{\sqrt{1-\zeta^2}}+\frac\pi2\right):
+//! ```
+//!
+//! the restitution is the root of that of the linear law that ends at zero force. Run in Newton by `.ci/check_robotics.py`.
 
 use std::f64::consts::PI;
 
 use fem_laws::bisection::{falling_zero, last_where};
-use fem_laws::laws::{ContactLaw, kuwabara_kono, power};
-use fem_laws::{LawError, LawImpact, Pair};
+use fem_laws::laws::{ContactLaw, kuwabara_kono, linear_from_restitution, power};
+use fem_laws::{EndRule, LawError, LawImpact, Pair};
 
-use super::{DentingSprings, HuntCrossley};
 use crate::estimate::FitError;
 use crate::estimate::minimise;
 use crate::table::Point;
@@ -235,6 +253,18 @@ pub fn viscel_entry(pair: &Pair, law: &ContactLaw) -> Option<(f64, f64)> {
     (frequency > 0.0).then(|| (time, (-rate * time).exp()))
 }
 
+/// Returns the stiffness, N/m, and the damping, N s/m, for which Newton's penalty contact makes this restitution and contact time, s.
+///
+/// # Errors
+/// A restitution outside (0, 1], a time that is not positive and finite.
+pub fn newton_entry(pair: &Pair, restitution: f64, time: f64) -> Result<[f64; 2], LawError> {
+    // Twice the approach of the linear law that ends at zero force, less the half period of an undamped return.
+    let unit = linear_from_restitution(pair, restitution.powi(2), 1.0, EndRule::ZeroForce)?;
+    let phase = (unit.stiffness() / pair.effective_mass()).sqrt();
+    let faster = 0.5 * (phase + PI) / (phase * time);
+    Ok([unit.stiffness() * faster * faster, unit.damping() * faster])
+}
+
 /// Returns the restitution that `HERTZIAN` makes of an e_n in (0, 1].
 pub fn mfix_outcome(entered: f64) -> f64 {
     of_sine(2.0 / 5f64.sqrt() * sine(entered))
@@ -273,12 +303,11 @@ fn surplus(e: f64, a: f64) -> f64 {
     (1.0 + e) * a - a.ln_1p() + (-e * a).ln_1p()
 }
 
-/// Returns d, s/m, by least squares of e(v), and its error; `None` for data without a loss or with nothing
-/// but loss.
+/// Returns d, s/m, by least squares of e(v), and √(Σ (e − e_i)²/N); `None` for data without a loss or with nothing but loss.
 ///
 /// # Errors
 /// A fit that does not converge.
-pub fn fit_dissipation(points: &[Point]) -> Result<Option<HuntCrossley>, FitError> {
+pub fn fit_dissipation(points: &[Point]) -> Result<Option<[f64; 2]>, FitError> {
     let lossy = points.iter().filter(|point| (1e-6..1.0 - 1e-6).contains(&point.restitution));
     let mut own: Vec<f64> =
         lossy.map(|point| dissipation_of(point.restitution) / point.speed).collect();
@@ -286,36 +315,29 @@ pub fn fit_dissipation(points: &[Point]) -> Result<Option<HuntCrossley>, FitErro
     let [first, .., last] = own[..] else { return Ok(None) };
     let residuals = |theta: &[f64]| {
         let d = theta[0].exp();
-        Some(
-            points
-                .iter()
-                .map(|point| restitution_of(d * point.speed) - point.restitution)
-                .collect(),
-        )
+        let error = |point: &Point| restitution_of(d * point.speed) - point.restitution;
+        Some(points.iter().map(error).collect())
     };
     let bounds = [((first / REACH).ln(), (last * REACH).ln())];
     // For data that rise with speed the sum of squares may have more than one minimum.
     let starts = [first, own[own.len() / 2], last];
-    let mut best: Option<(f64, f64)> = None;
+    let mut best: Option<[f64; 2]> = None;
     for start in starts {
         let (theta, sum) = minimise(&residuals, &[start.ln()], &bounds)?;
-        if best.is_none_or(|best| sum < best.1) {
-            best = Some((theta[0].exp(), sum));
+        let rms = (sum / points.len() as f64).sqrt();
+        if best.is_none_or(|best| rms < best[1]) {
+            best = Some([theta[0].exp(), rms]);
         }
     }
-    Ok(best.map(|(dissipation, sum)| HuntCrossley {
-        dissipation,
-        rms: (sum / points.len() as f64).sqrt(),
-        validity: [f64::INFINITY, 0.0, 0.0],
-    }))
+    Ok(best)
 }
 
-/// Returns Luding's springs of a pair by least squares of e(v) and then of T(v), of T/T_i − 1; `None` if the restitution does not
-/// fall or there are no contact times.
+/// Returns Luding's springs of a pair, k_p/k₁, k₁ (N/m) and φ_f over the reduced diameter, by least squares of e(v) and then of T(v),
+/// of T/T_i − 1; `None` if the restitution does not fall or there are no contact times.
 ///
 /// # Errors
 /// A fit that does not converge.
-pub fn fit_springs(pair: &Pair, points: &[Point]) -> Result<Option<DentingSprings>, FitError> {
+pub fn fit_springs(pair: &Pair, points: &[Point]) -> Result<Option<[f64; 3]>, FitError> {
     let fastest = BEYOND * points.iter().map(|point| point.speed).fold(0.0, f64::max);
     let restitution = |excess: f64, speed: f64| (1.0 + excess * speed / fastest).powf(-0.5);
     let residuals = |theta: &[f64]| {
@@ -338,6 +360,5 @@ pub fn fit_springs(pair: &Pair, points: &[Point]) -> Result<Option<DentingSpring
     let approach = fastest * (mass / loading).sqrt();
     let ratio = 1.0 + excess;
     let depth = approach * excess / (2.0 * pair.effective_radius() * ratio);
-    let validity = [f64::INFINITY, 0.0, 0.0];
-    Ok(Some(DentingSprings { loading, ratio, depth, validity }))
+    Ok(Some([ratio, loading, depth]))
 }

@@ -62,7 +62,8 @@ pub fn grain_snippets(grains: &[Grain], pairs: &[PairOfGrains]) -> Vec<(&'static
 
 fn heading(code: &str, kind: &str, grains: &[Grain], pairs: &[PairOfGrains]) -> String {
     let mut text = format!(
-        "# {code}; one restitution a pair, for all speeds, SI units; where it is good: pairs.csv.\n"
+        "# {code}; one restitution a pair, for all speeds, SI units; where it is good: pairs.csv.\n\
+         # Without friction; put in your own tangential model.\n"
     );
     for (index, Grain { material, sphere }) in grains.iter().enumerate() {
         let material = material.replace(char::is_control, " ");

@@ -1,27 +1,32 @@
 //! Input for codes of the discrete element method, and the restitution that each code makes of it.
 //!
-//! Codes interpret an entered restitution in three ways:
+//! Codes interpret an entered restitution in four ways:
 //!
 //! - The contact ends at zero overlap, and the dashpot pulls at the end: LAMMPS without `limit_damping`, LIGGGHTS
 //!   without `limitForce on`, MercuryDPM, Lethe, MFIX-DEM.
 //! - The contact ends at zero force: YADE, MuJoCo, Drake, and LAMMPS and LIGGGHTS with those keywords.
+//! - The dashpot acts in the approach only: Newton.
 //! - An approximate formula: LAMMPS' `tsuji`, YADE's Hertz–Mindlin `en`, MFIX's `HERTZIAN`.
 //!
-//! `entries` has the formulas of each code and their sources, `snippets.txt` the texts.
+//! `entries` has the formulas of each code and their sources, `friction` those of tangential forces, `snippets.txt` the texts.
 
 mod entries;
+mod friction;
 mod grains;
+mod pair_law;
 
 pub use entries::{
     TsujiVersion, characteristic_velocity, dissipation_of, fit_dissipation, fit_springs,
-    hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry,
-    tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
+    hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, newton_entry, restitution_of,
+    tsuji_entry, tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
 };
+pub use friction::{FittedFriction, FrictionLaw, PatchRebound};
 pub use grains::{Grain, PairOfGrains, grain_snippets, grouped};
+pub use pair_law::{DentTable, DentedSpot, PAIR_CHECK, PairLaw, Repulsion, ShearSprings};
 
 use std::collections::BTreeMap;
 
-use fem_laws::laws::linear_from_restitution;
+use fem_laws::laws::{linear_from_restitution, zhang_whiten_coefficient};
 use fem_laws::{EndRule, LawError, LawFamily, Pair};
 use fem_material::Material;
 use fem_material::engineering::number;
@@ -29,8 +34,11 @@ use fem_material::engineering::number;
 /// The texts of all snippets, whose format stands at their beginning.
 const SNIPPETS: &str = include_str!("snippets.txt");
 /// The contact laws that each code has; one restitution for all speeds is `tsuji` on Hertz' spring and `linear` on a linear one.
-pub const CODE_LAWS: [(&str, &[LawFamily]); 8] = [
-    ("lammps", &[LawFamily::Tsuji, LawFamily::KuwabaraKono, LawFamily::Mdr]),
+pub const CODE_LAWS: [(&str, &[LawFamily]); 9] = [
+    (
+        "lammps",
+        &[LawFamily::Tsuji, LawFamily::KuwabaraKono, LawFamily::HertzDashpot, LawFamily::Mdr],
+    ),
     ("liggghts", &[LawFamily::Tsuji, LawFamily::Linear, LawFamily::Luding]),
     ("yade", &[LawFamily::Tsuji, LawFamily::Linear, LawFamily::Luding]),
     ("mercurydpm", &[LawFamily::Tsuji, LawFamily::Linear, LawFamily::Luding]),
@@ -38,6 +46,7 @@ pub const CODE_LAWS: [(&str, &[LawFamily]); 8] = [
     ("mfix-dem", &[LawFamily::Tsuji, LawFamily::Linear]),
     ("drake", &[LawFamily::HuntCrossley]),
     ("mujoco", &[LawFamily::Linear]),
+    ("newton", &[LawFamily::Linear]),
 ];
 /// Name of the table of the confidence band, beside the snippets.
 pub const BAND_FILE: &str = "restitution_band.csv";
@@ -60,31 +69,14 @@ pub struct Sphere {
     pub poissons_ratio: f64,
 }
 
-/// A dashpot of Hunt & Crossley on a linear spring, as Drake has it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HuntCrossley {
-    /// Dissipation d, s/m.
-    pub dissipation: f64,
-    /// √(Σ (e − e_i)²/N) over all data.
-    pub rms: f64,
-    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
-    pub validity: [f64; 3],
-}
-
-impl HuntCrossley {
-    /// The dashpot of bodies that lose nothing.
-    pub const LOSSLESS: Self = Self { dissipation: 0.0, rms: 0.0, validity: [0.0; 3] };
-}
-
-/// Luding's springs without adhesion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DentingSprings {
-    /// Stiffness of the loading k₁, N/m.
-    pub loading: f64,
-    /// Largest stiffness of the rebound k_p over k₁.
-    pub ratio: f64,
-    /// Plasticity depth φ_f, over the reduced diameter.
-    pub depth: f64,
+/// A law whose restitution depends on speed, fitted to the data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawOfSpeed {
+    /// The name of its family: `kuwabara_kono` (A, s), `hertz_dashpot` (c, N s/m), `luding` (k_p/k₁, k₁ in N/m, φ_f), `mdr` (yield
+    /// strength in Pa, Poisson's ratio), or `hunt_crossley` on a linear spring, as Drake has it (d, s/m, and the rms error of e).
+    pub name: &'static str,
+    /// Values of its parameters, SI.
+    pub values: Vec<f64>,
     /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
     pub validity: [f64; 3],
 }
@@ -108,20 +100,46 @@ pub struct Export {
     pub contact_time: f64,
     /// Range of speeds in which that e is valid: from, to, m/s; and its largest error over all data.
     pub validity: [f64; 3],
-    /// A of Kuwabara & Kono, s, for a contact that ends at zero force, and its validity.
-    pub dissipation_time: (f64, [f64; 3]),
-    /// The law whose restitution falls with speed; `None` if it cannot make the loss.
-    pub hunt_crossley: Option<HuntCrossley>,
-    /// Luding's springs for bodies that dent; `None` if no body has a yield strength, or the restitution does not fall.
-    pub springs: Option<DentingSprings>,
-    /// Yield strength (Pa) and Poisson's ratio of LAMMPS' `mdr` for bodies that dent, and its validity.
-    pub mdr: Option<([f64; 2], [f64; 3])>,
+    /// The laws whose restitution depends on speed, as far as they can make the loss.
+    pub of_speed: Vec<LawOfSpeed>,
     /// The speeds at which e is an upper bound, with the reasons; empty if it is none.
     pub bounds: Vec<String>,
     /// Other comments on e, such as the speeds that are left out.
     pub notes: Vec<String>,
     /// Confidence level and largest half-width of the band of a fitted e(v).
     pub band: Option<(f64, f64)>,
+    /// Friction of the contact; `None` without it.
+    pub friction: Option<Friction>,
+}
+
+/// Friction of the contact, and what each file makes of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Friction {
+    /// The rebound of the patch.
+    pub rebound: PatchRebound,
+    /// The tangential law of each file, by its name.
+    pub fitted: BTreeMap<&'static str, FittedFriction>,
+}
+
+/// The laws of a file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Head {
+    /// Name of the file.
+    pub name: &'static str,
+    /// The code it is for.
+    pub code: &'static str,
+    /// The model in the code's own words.
+    pub model: &'static str,
+    /// The model in the heading of the file.
+    title: &'static str,
+    /// The name of the normal law's family, or `constant`.
+    pub law: &'static str,
+    /// Whether a normal law with one restitution is linear.
+    pub is_linear: bool,
+    /// Names and values of what decides on the loss, as text.
+    entries: &'static str,
+    /// The tangential law, with the factor on its stiffness if the code leaves no choice; `None` if it is not known for the normal law.
+    pub friction: Option<(FrictionLaw, Option<f64>)>,
 }
 
 /// A file for a DEM code.
@@ -157,6 +175,21 @@ struct Values {
 struct Lines {
     notes: String,
     commands: String,
+}
+
+impl Head {
+    /// Returns the head of a block; `None` of a block that others insert.
+    fn of(text: &'static str) -> Option<Self> {
+        let parts: Vec<&str> = text.split(" | ").collect();
+        let [name, code, model, title, law, entries, friction] = parts[..] else { return None };
+        let (law, is_linear) = match law.split_once(' ') {
+            Some((law, _)) => (law, true),
+            None => (law, false),
+        };
+        let (word, given) = friction.split_once(' ').unwrap_or((friction, ""));
+        let friction = FrictionLaw::of_word(word).map(|law| (law, given.parse().ok()));
+        Some(Self { name, code, model, title, law, is_linear, entries, friction })
+    }
 }
 
 impl Sphere {
@@ -210,14 +243,14 @@ impl Export {
     /// Numbers that a code's formula does not take.
     pub fn snippets(&self) -> Result<Vec<Snippet>, LawError> {
         let (numbers, words) = (self.numbers()?, self.words());
-        let blocks = || SNIPPETS.split("\n@ ").skip(1).filter_map(|block| block.split_once('\n'));
         let mut snippets = Vec::new();
         for (head, body) in blocks() {
-            let parts: Vec<&str> = head.split(" | ").collect();
-            let [name, code, model, title, law, entries] = parts[..] else { continue };
+            let Some(head) = Head::of(head) else { continue };
+            let Head { name, code, model, title, law, entries, .. } = head;
             let mut values = Values { numbers: numbers.clone(), words: words.clone() };
+            values.numbers.extend(self.friction_numbers(&head, &numbers));
             let mut lines = Lines::default();
-            let is_filled = self.add_lines(body, &blocks, &mut values, &mut lines).is_some();
+            let is_filled = self.add_lines(body, &mut values, &mut lines).is_some();
             let entries = entries.split("; ").filter_map(|entry| {
                 let (key, name) = entry.split_once(" = ")?;
                 Some((key, *values.numbers.get(name)?))
@@ -225,19 +258,15 @@ impl Export {
             if !is_filled || lines.commands.is_empty() {
                 continue;
             }
-            let of_speed = match law {
-                "kuwabara_kono" => Some(self.dissipation_time.1),
-                "hunt_crossley" => self.hunt_crossley.map(|fitted| fitted.validity),
-                "luding" => self.springs.map(|fitted| fitted.validity),
-                "mdr" => self.mdr.map(|(_, validity)| validity),
-                _ => None,
-            };
+            let of_speed = self.of_speed(law);
             let restitution = of_speed.is_none().then_some(self.restitution);
-            let validity = of_speed.unwrap_or(self.validity);
-            let heading = self.heading(&format!("{code}, {title}"), validity, &lines.notes);
+            let validity = of_speed.map_or(self.validity, |fitted| fitted.validity);
+            let notes = lines.notes + &self.friction_note(&head);
+            let heading = self.heading(&format!("{code}, {title}"), validity, &notes);
             let text = match name.rsplit_once('.').map_or("", |(_, ending)| ending) {
                 "cpp" => slashed(&heading) + &lines.commands.replace(UNLIKE, &slashed(UNLIKE)),
                 "xml" => format!("<!--\n{}-->\n{}", heading.replace("--", "-"), lines.commands),
+                "usda" => "#usda 1.0\n".to_string() + &heading + &lines.commands,
                 _ => heading + &lines.commands,
             };
             let entries = entries.collect();
@@ -246,17 +275,16 @@ impl Export {
         Ok(snippets)
     }
 
+    /// Returns the fitted law of a family; `None` of one with one restitution for all speeds, or one that cannot make the loss.
+    pub fn of_speed(&self, family: &str) -> Option<&LawOfSpeed> {
+        self.of_speed.iter().find(|law| law.name == family)
+    }
+
     /// Adds the lines of a block that apply to these spheres; `None` if a value does not exist.
-    fn add_lines<'b, B: Iterator<Item = (&'b str, &'b str)>>(
-        &self,
-        body: &'b str,
-        blocks: &impl Fn() -> B,
-        values: &mut Values,
-        lines: &mut Lines,
-    ) -> Option<()> {
+    fn add_lines(&self, body: &'static str, values: &mut Values, lines: &mut Lines) -> Option<()> {
         let (is_wall, is_equal) = (self.spheres.len() < 2, self.is_equal());
         let is_word = |word: &str| word.chars().all(|c| c.is_ascii_lowercase() || c == ' ');
-        let split = |line: &'b str| match line.split_once('|') {
+        let split = |line: &'static str| match line.split_once('|') {
             Some((condition, text)) if is_word(condition) => (condition, text),
             _ => ("", line),
         };
@@ -268,6 +296,8 @@ impl Export {
                 "equal" => is_equal,
                 "other" => !is_equal,
                 "unlike" => !is_wall && !is_equal,
+                "friction" => self.friction.is_some(),
+                "smooth" => self.friction.is_none(),
                 _ => true,
             };
             let condition = group[0].0;
@@ -282,7 +312,7 @@ impl Export {
             for repeat in 0..n_repeats {
                 values.set_sphere(repeat + 1, &self.spheres[repeat], "");
                 for (_, line) in group {
-                    match (condition, line.strip_prefix("> ")) {
+                    match (condition.rsplit(' ').next().unwrap_or(""), line.strip_prefix("> ")) {
                         ("let", _) => {
                             let (name, text) = line.split_once(" = ")?;
                             let text = values.fill(text)?;
@@ -292,7 +322,7 @@ impl Export {
                         ("unlike", _) if line.is_empty() => lines.commands += UNLIKE,
                         (_, Some(name)) => {
                             let (_, body) = blocks().find(|(head, _)| *head == name)?;
-                            self.add_lines(body, blocks, values, lines)?;
+                            self.add_lines(body, values, lines)?;
                         }
                         _ => lines.commands += &(values.fill(line)? + "\n"),
                     }
@@ -312,8 +342,6 @@ impl Export {
         let mut numbers = BTreeMap::from([
             ("e", *e),
             ("time", *time),
-            ("dissipation_time", self.dissipation_time.0),
-            ("eta", viscoelastic_damping(pair, self.dissipation_time.0)?),
             ("stiffness", stiffness),
             ("velocity", characteristic_velocity(pair, stiffness)),
             ("contact_modulus", modulus),
@@ -327,39 +355,114 @@ impl Export {
         numbers.extend(tsuji_entry(*e, TsujiVersion::Plain).map(|entry| ("tsuji", entry)));
         numbers.extend(mfix_entry(*e).map(|entry| ("mfix_en", entry)));
         if self.spheres.len() == 2 {
-            numbers.insert("mindlin_en", hertz_mindlin_entry(pair, *e)?);
+            let en = hertz_mindlin_entry(pair, *e)?;
+            // Tsuji's α over √(m* K) is β_n of √(m* S), K = ⅔S.
+            let betan = zhang_whiten_coefficient(*e)? / 6f64.sqrt();
+            numbers.extend([("mindlin_en", en), ("mindlin_betan", betan)]);
         }
-        if let Some(DentingSprings { loading, ratio, depth, .. }) = self.springs {
-            numbers.extend([
-                ("k1", loading),
-                ("kp", ratio * loading),
-                ("kp_over_k1", ratio),
-                ("phi_f", depth),
-                ("k1_velocity", characteristic_velocity(pair, loading)),
-            ]);
+        for LawOfSpeed { name, values, .. } in &self.of_speed {
+            match (*name, &values[..]) {
+                ("kuwabara_kono", &[time]) => {
+                    let eta = viscoelastic_damping(pair, time)?;
+                    numbers.extend([("dissipation_time", time), ("eta", eta)]);
+                }
+                ("hertz_dashpot", &[damping]) => {
+                    numbers.insert("gamma", damping);
+                }
+                ("luding", &[ratio, loading, depth]) => numbers.extend([
+                    ("k1", loading),
+                    ("kp", ratio * loading),
+                    ("kp_over_k1", ratio),
+                    ("phi_f", depth),
+                    ("k1_velocity", characteristic_velocity(pair, loading)),
+                ]),
+                ("mdr", &[strength, ratio, ..]) => {
+                    let n_sides = self.spheres.len() as f64;
+                    let young = n_sides * (1.0 - ratio * ratio) * modulus;
+                    numbers.extend([("mdr_strength", strength), ("mdr_poisson", ratio)]);
+                    numbers.insert("mdr_young", young);
+                }
+                ("hunt_crossley", &[dissipation, rms]) => numbers.extend([
+                    ("dissipation", dissipation),
+                    ("dissipation_rms", rms),
+                    ("slow_e", restitution_of(dissipation * self.speeds.0)),
+                    ("fast_e", restitution_of(dissipation * self.speeds.1)),
+                ]),
+                _ => {}
+            }
         }
-        if let Some(([strength, ratio], _)) = self.mdr {
-            let n_sides = self.spheres.len() as f64;
-            numbers.extend([("mdr_strength", strength), ("mdr_poisson", ratio)]);
-            numbers.insert("mdr_young", n_sides * (1.0 - ratio * ratio) * modulus);
+        if let Ok([stiffness, damping]) = newton_entry(pair, *e, *time) {
+            numbers.extend([("newton_stiffness", stiffness), ("newton_damping", damping)]);
         }
         // Codes that end the contact at the force 0.
         let Ok(law) = linear(EndRule::ZeroForce) else { return Ok(numbers) };
         let [stiffness, damping] = [law.stiffness(), law.damping()].map(|of| of / mass);
         numbers.extend([("mujoco_stiffness", stiffness), ("mujoco_damping", damping)]);
         numbers.insert("point_stiffness", 2.0 * law.stiffness());
+        numbers.extend([("yade_kn", 2.0 * law.stiffness()), ("yade_cn", 2.0 * law.damping())]);
         if let Some((time, en)) = viscel_entry(pair, &law) {
             numbers.extend([("viscel_tc", time), ("viscel_en", en)]);
         }
-        if let Some(HuntCrossley { dissipation, rms, .. }) = self.hunt_crossley {
-            numbers.extend([
-                ("dissipation", dissipation),
-                ("dissipation_rms", rms),
-                ("slow_e", restitution_of(dissipation * self.speeds.0)),
-                ("fast_e", restitution_of(dissipation * self.speeds.1)),
-            ]);
-        }
         Ok(numbers)
+    }
+
+    /// Returns the numbers of friction that a file can contain; all are 0 without it.
+    fn friction_numbers(
+        &self,
+        head: &Head,
+        numbers: &BTreeMap<&'static str, f64>,
+    ) -> Vec<(&'static str, f64)> {
+        let fitted = self
+            .friction
+            .as_ref()
+            .and_then(|friction| Some((&friction.rebound, friction.fitted.get(head.name)?.factor)));
+        let (friction, modulus, mass_ratio, factor) = match fitted {
+            Some((rebound, factor)) => {
+                (rebound.friction, rebound.modulus, rebound.mass_ratio, factor)
+            }
+            None => (0.0, 0.0, f64::INFINITY, 0.0),
+        };
+        let of = |key: &str| numbers.get(key).copied().unwrap_or_default();
+        let patch_mass = self.pair.effective_mass() / mass_ratio;
+        vec![
+            ("mu", friction),
+            ("friction_angle", friction.atan()),
+            ("kt", 2.0 * modulus * factor),
+            ("kt_over_kn", factor),
+            ("kt_linear", factor * of("stiffness")),
+            ("yade_ks", factor * of("yade_kn")),
+            ("mercury_shear_modulus", 0.375 * modulus * factor),
+            // The patch of a contact in fifty steps stands within two of them.
+            ("friction_gain", 25.0 * patch_mass / self.contact_time),
+        ]
+    }
+
+    /// Returns the comment on friction in a file.
+    fn friction_note(&self, head: &Head) -> String {
+        let known = self.friction.as_ref().zip(head.friction);
+        let known = known.and_then(|(friction, (_, given))| {
+            Some((&friction.rebound, friction.fitted.get(head.name)?, given))
+        });
+        let Some((rebound, FittedFriction { law, factor, rms, worst, .. }, given)) = known else {
+            return commented("Without friction; put in your own tangential model.");
+        };
+        let factor = number(*factor, 3);
+        let stiffness = match (law, given) {
+            (FrictionLaw::Sliding, _) => "no tangential spring".to_string(),
+            (FrictionLaw::Linear, Some(_)) => format!("k_t = {factor} k_n, which the code gives"),
+            (FrictionLaw::Linear, None) => format!("k_t = {factor} k_n, fitted"),
+            (_, Some(_)) => format!("{factor} of Mindlin's stiffness, which the code gives"),
+            (_, None) => format!("{factor} of Mindlin's stiffness, fitted"),
+        };
+        let (from, to) = (rebound.before[0], rebound.before[rebound.before.len() - 1]);
+        commented(&format!(
+            "Friction {}, {stiffness}. For tan(angle)/mu from {} to {} the patch rebounds with v_t/(mu v_n) to {} rms, {} at worst.",
+            number(rebound.friction, 4),
+            number(from, 2),
+            number(to, 2),
+            number(*rms, 2),
+            number(*worst, 2)
+        ))
     }
 
     /// Returns the words that snippets can contain. The second of one sphere is the sphere itself.
@@ -374,6 +477,8 @@ impl Export {
         values.words.extend([
             ("wall".to_string(), self.wall().to_string()),
             ("n_kinds".to_string(), n_kinds.to_string()),
+            ("left".to_string(), "{".to_string()),
+            ("right".to_string(), "}".to_string()),
             ("tsuji_later".to_string(), later.map_or("nothing".into(), |e| format!("{e:.4}"))),
         ]);
         values.words
@@ -445,6 +550,16 @@ impl Export {
         let Sphere { youngs_modulus, poissons_ratio, .. } = self.spheres[0];
         self.pair.contact_modulus().recip() - (1.0 - poissons_ratio.powi(2)) / youngs_modulus
     }
+}
+
+/// Returns the blocks of the texts: head and body.
+fn blocks() -> impl Iterator<Item = (&'static str, &'static str)> {
+    SNIPPETS.split("\n@ ").skip(1).filter_map(|block| block.split_once('\n'))
+}
+
+/// Returns the laws of all files.
+pub fn heads() -> impl Iterator<Item = Head> {
+    blocks().filter_map(|(head, _)| Head::of(head))
 }
 
 /// Returns a text as comment lines.

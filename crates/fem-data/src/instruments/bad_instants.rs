@@ -6,12 +6,12 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::bounce_times::Instants;
-use super::series::{CHANCE, FlightSpan, Misfit, Scatter, drops, fewest_terms, scatter};
+use super::series::{
+    CHANCE, FEWEST_FREEDOM, FlightSpan, Misfit, Scatter, drops, fewest_terms, scatter,
+};
 
 /// Flights whose ends are tried, those with the largest residuals.
 const TRIED: usize = 6;
-/// Fewest degrees of freedom of the fit to the others.
-const FEWEST_FREEDOM: f64 = 2.0;
 /// Ratio of two scatters of few flights that is no difference.
 const AS_LITTLE: f64 = 1.5;
 /// Most instants that are left out.

@@ -104,14 +104,14 @@ impl Instants {
     /// # Errors
     /// The table has no column of instants, a cell is no number, or the instants do not increase.
     pub fn read(columns: &Table) -> Result<Self, DataError> {
-        let numbered = |names: &[&str]| -> Vec<usize> {
+        let numbered = |names: &str| -> Vec<usize> {
             let is_it = |column: &usize| is_numbered(&columns.header()[*column], names);
             (0..columns.header().len()).filter(is_it).collect()
         };
-        let (time, interval) = (columns.find(&TIMES)?, columns.find(&INTERVALS)?);
-        let numbers = numbered(&NUMBERED);
+        let (time, interval) = (columns.find(TIMES)?, columns.find(INTERVALS)?);
+        let numbers = numbered(NUMBERED);
         if time.is_none() && interval.is_none() && !numbers.is_empty() {
-            return Self::of_drops(columns, &numbers, numbered(&DROPS).len() == numbers.len());
+            return Self::of_drops(columns, &numbers, numbered(DROPS).len() == numbers.len());
         }
         let is_count = |column: usize| {
             let count = |row: usize| columns.text(row, column).parse::<usize>().ok();
@@ -126,12 +126,12 @@ impl Instants {
         if let Some(column) = intervals {
             return Self::of_intervals(columns, column);
         }
-        let column = match (time, columns.find(&EVENTS)?) {
+        let column = match (time, columns.find(EVENTS)?) {
             (Some(column), _) | (None, Some(column)) => column,
-            _ => columns.require(&TIMES, "time_s or time_ms")?,
+            _ => columns.require(TIMES, "time_s or time_ms")?,
         };
         let times = columns.numbers(column, [0, 0, 1])?;
-        let uncertainties = columns.find(&TIME_UNCERTAINTIES)?;
+        let uncertainties = columns.find(TIME_UNCERTAINTIES)?;
         let uncertainties = uncertainties.map(|column| columns.numbers(column, [0, 0, 1]));
         let is_known: Vec<bool> = times.values.iter().map(|time| time.is_finite()).collect();
         let kept = |values: Vec<f64>| -> Vec<f64> {

@@ -19,9 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::estimate::FitError;
 use crate::table::{DataError, Table};
 pub use crate::table::{Measured, impossible_restitution};
-
-/// Standard gravity, m/s² (CGPM 1901).
-pub const STANDARD_GRAVITY: f64 = 9.80665;
+pub use fem_material::engineering::STANDARD_GRAVITY;
 
 /// Dimensions of the apparatus.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -194,10 +192,10 @@ fn variances(slopes: &[f64; 6], inputs: &[Measured; 6]) -> [f64; 6] {
 /// # Ok::<(), fem_data::table::DataError>(())
 /// ```
 pub fn cradle_trials(table: &Table) -> Result<Vec<Trial>, DataError> {
-    let alpha = table.require(&["alpha"], "alpha_deg")?;
-    let beta = table.require(&["beta"], "beta_deg")?;
-    let of_alpha = table.find(&["alpha_uncertainty"])?;
-    let of_beta = table.find(&["beta_uncertainty"])?;
+    let alpha = table.require("alpha", "alpha_deg")?;
+    let beta = table.require("beta", "beta_deg")?;
+    let of_alpha = table.find("alpha_uncertainty")?;
+    let of_beta = table.find("beta_uncertainty")?;
     let trial = |row: usize| {
         Ok(Trial {
             release: angle(table, row, alpha, of_alpha)?,

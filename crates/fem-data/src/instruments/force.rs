@@ -112,8 +112,8 @@ impl Samples {
     /// # Errors
     /// A column is missing, a cell is no number, or the times do not increase.
     pub fn read(columns: &Table) -> Result<Self, DataError> {
-        let time = columns.require(&TIMES, "time_s or time_ms")?;
-        let force = columns.require(&FORCES, "force_n or force_kn")?;
+        let time = columns.require(TIMES, "time_s or time_ms")?;
+        let force = columns.require(FORCES, "force_n or force_kn")?;
         let times = columns.numbers(time, [0, 0, 1])?.values;
         let forces = columns.numbers(force, [1, 1, -2])?.values;
         let both = times.into_iter().zip(forces).enumerate();

@@ -36,8 +36,8 @@ const NEIGHBOURS: usize = 3;
 const FEWEST: usize = 4;
 /// Most terms of the polynomial through the logarithms of flight times.
 pub(super) const MAX_TERMS: usize = 5;
-/// Fewest degrees of freedom of a polynomial that is no line.
-const FEWEST_FREEDOM: f64 = 2.0;
+/// Fewest degrees of freedom of a polynomial that is no line, and of the fit without a bad instant.
+pub(super) const FEWEST_FREEDOM: f64 = 2.0;
 /// Steps of the fit to the durations, from their logarithms.
 const NEWTON_STEPS: usize = 4;
 /// Probability below which a fit is not better by chance: with one more term, or without a bad instant. Of 2,600 records with one to

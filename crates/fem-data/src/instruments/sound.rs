@@ -71,8 +71,8 @@ impl Signal {
     /// # Errors
     /// A column is missing, a cell is no number, or the samples are not evenly spaced.
     pub fn read(columns: &Table) -> Result<Self, DataError> {
-        let time = columns.require(&TIMES, "time_s")?;
-        let signal = columns.require(&SIGNALS, "signal")?;
+        let time = columns.require(TIMES, "time_s")?;
+        let signal = columns.require(SIGNALS, "signal")?;
         let times = columns.numbers(time, [0, 0, 1])?.values;
         let values = columns.plain(signal)?.values;
         let fault = |message: String| {

@@ -22,7 +22,7 @@ use crate::estimate::{Accuracy, SumOfSquares};
 use crate::table::{ModulusPoint, TestKind};
 
 use super::series::{Observations, ROUNDING, compressed_by_products, grid, joined};
-use super::superposition::{Block, reduced};
+use super::superposition::{Block, REACH, reduced};
 
 /// Terms per decade of the series of all blocks.
 const DENSITY: f64 = 2.0;
@@ -32,8 +32,6 @@ const N_ROUNDS: usize = 5;
 /// tenth of their uncertainty.
 const ACCURACY: Accuracy =
     Accuracy { of_parameters: 1e-5, of_sum: 0.01, n_steps: 30, longest_step: 1.0 };
-/// Standard uncertainty of a shift that the data do not determine, ln: a decade and a half.
-const WIDEST: f64 = 1.5 * std::f64::consts::LN_10;
 
 /// Returns the terms whose times, within a reach of ln τ about those given, and moduli meet the points best. Residuals of losses count
 /// over `loss_scale`.
@@ -277,10 +275,10 @@ impl Problem<'_> {
         let freedom = solved.residuals.len().saturating_sub(solved.passive().ncols() + n).max(1);
         let variance = solved.misfit() / freedom as f64 + ROUNDING * ROUNDING;
         // Prior knowledge of a decade and a half keeps shifts finite that the data do not determine.
-        let prior = DMatrix::identity(n, n) / WIDEST.powi(2);
+        let prior = DMatrix::identity(n, n) / REACH.powi(2);
         let information = slopes.transpose() * &slopes / variance + prior;
         Cholesky::new(information)
-            .map_or_else(|| DMatrix::identity(n, n) * WIDEST.powi(2), |factor| factor.inverse())
+            .map_or_else(|| DMatrix::identity(n, n) * REACH.powi(2), |factor| factor.inverse())
     }
 
     fn solve(&self, parameters: &[f64]) -> Solved {

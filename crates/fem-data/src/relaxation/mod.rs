@@ -9,11 +9,13 @@
 mod determination;
 mod found;
 mod joint;
+mod reduced;
 mod series;
 mod stored;
 mod superposition;
 
 pub use found::{FoundRelaxation, RelaxationSettings};
+pub use reduced::reduced_series;
 pub use series::{FittedSeries, FittedTerm, fit_series};
 pub use stored::{shift_toml, toml_key};
 pub use superposition::{Block, FittedShift, Superposition};

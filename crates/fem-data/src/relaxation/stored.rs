@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use fem_collision::PROGRAM;
 use fem_material::engineering::{Unit, number, show};
-use fem_material::{ShiftLaw, ZERO_CELSIUS};
+use fem_material::{GAS_CONSTANT, ShiftLaw, ZERO_CELSIUS};
 
 use super::found::FoundRelaxation;
 use super::superposition::{FittedShift, Superposition};
@@ -12,8 +12,6 @@ use crate::table::{ModulusPoint, TestKind};
 
 /// Smaller shares of a modulus are rounding.
 const LEAST_UNCERTAINTY: f64 = 1e-5;
-/// The gas constant, J/(mol K), exact by the SI of 2019.
-const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
 /// Returns the numbers of shifts for JSON.
 fn superposition(found: &Superposition) -> Value {

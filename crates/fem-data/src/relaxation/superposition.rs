@@ -24,8 +24,9 @@ use super::series::{Observations, compressed_by_products, grid};
 
 /// Terms per decade of the series of a few blocks: the waves of its moduli are below all scatter.
 pub(super) const DENSITY: f64 = 3.0;
-/// Decades of the scan on either side of the first estimate.
-const REACH: f64 = 1.5;
+/// Reach of the scan on either side of the first estimate, ln: a decade and a half, the standard uncertainty of a shift that the data do
+/// not determine.
+pub(super) const REACH: f64 = 1.5 * std::f64::consts::LN_10;
 /// Values of the scan.
 const N_SCANNED: usize = 16;
 /// Difference of ln of the moduli of two blocks that is no gap but scatter.
@@ -290,7 +291,7 @@ fn scanned_shift(
         let linear = compressed_by_products(&linear);
         linear.misfit(non_negative(&linear.a, &linear.b).as_slice())
     };
-    let width = 2.0 * REACH * std::f64::consts::LN_10 / N_SCANNED as f64;
+    let width = 2.0 * REACH / N_SCANNED as f64;
     let from = start - 0.5 * width * N_SCANNED as f64;
     // A warmer block is faster.
     let scanned = (0..=N_SCANNED).map(|k| (from + width * k as f64).min(0.0));

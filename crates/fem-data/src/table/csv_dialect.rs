@@ -1,11 +1,11 @@
-//! The dialects of measured tables: encodings, separators, decimal commas, units and cells without a value.
+//! The dialects of the cells of measured tables: encodings, decimal commas, units, and cells without a value.
 
 use std::borrow::Cow;
 
 use fem_case::parse_quantity;
 
 use super::column_roles::{
-    SIGNS, bare, ending_like, ending_of, other_ending, uncertainty_of, with_ending,
+    SIGNS, bare, ending_of, ending_of_unit, is_one_of, uncertainty_of, with_ending,
 };
 
 /// Returns the text of a file: UTF-16, recognised by its byte order mark or its zeros, UTF-8, or else Latin-1.
@@ -26,42 +26,6 @@ pub fn decode(bytes: &[u8]) -> String {
         Ok(text) => text.to_string(),
         Err(_) => bytes.iter().copied().map(char::from).collect(),
     }
-}
-
-/// Returns a text whose columns are separated by blanks only with tabs instead; any other text is unchanged.
-pub(super) fn tabs_for_blanks(text: &str) -> Cow<'_, str> {
-    let is_row = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
-    let mut rows = text.lines().filter(is_row);
-    let (Some(header), Some(first)) = (rows.next(), rows.next()) else { return text.into() };
-    let n_words = |line: &str| line.split_whitespace().count();
-    let has_separator = header.contains([',', ';', '\t']) || header.starts_with("sep=");
-    // A header of two words in one name has more words than the row below.
-    if has_separator || n_words(header) < 2 || n_words(first) != n_words(header) {
-        return text.into();
-    }
-    let tabs = |line: &str| match line.starts_with('#') {
-        true => line.to_string(),
-        false => line.split_whitespace().collect::<Vec<_>>().join("\t"),
-    };
-    text.lines().map(|line| tabs(line) + "\n").collect::<String>().into()
-}
-
-/// Returns the separator of the cells of a table, from its header: the most frequent of semicolons, tabs
-/// and commas; the first of these if counts are equal. A line `sep=;`, which spreadsheets write, is not the
-/// header.
-pub(super) fn separator(text: &str) -> (u8, &str) {
-    let text = text.trim_start_matches('\u{feff}');
-    if let Some((first, rest)) = text.split_once('\n')
-        && let [separator] = first.trim_end().strip_prefix("sep=").unwrap_or("").as_bytes()
-    {
-        return (*separator, rest);
-    }
-    let is_header = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
-    let header = text.lines().find(is_header).unwrap_or("");
-    let count = |separator: &u8| header.bytes().filter(|byte| byte == separator).count();
-    // If counts are equal, `max_by_key` takes the last.
-    let separator = [b',', b'\t', b';'].into_iter().max_by_key(count).unwrap_or(b',');
-    (separator, text)
 }
 
 /// Returns the name of a column in the spelling of lookups: in lower case, with `_` for spaces and with a unit as an ending.
@@ -138,38 +102,19 @@ fn of_last_digits(cell: &str) -> Option<[String; 2]> {
 
 /// Whether a cell names what is computed from the rows above it.
 pub(super) fn is_mean(cell: &str) -> bool {
-    const WORDS: [&str; 11] = [
-        "mean",
-        "average",
-        "avg",
-        "mittelwert",
-        "mittel",
-        "moyenne",
-        "median",
-        "std",
-        "sd",
-        "standard deviation",
-        "standardabweichung",
-    ];
-    let cell = cell.trim_end_matches([':', '.']);
-    WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
+    const WORDS: &str = "mean average avg mittelwert mittel moyenne median std sd standard_deviation standardabweichung";
+    is_one_of(&cell.trim_end_matches([':', '.']).to_lowercase().replace(' ', "_"), WORDS)
 }
 
 /// Whether a cell below a name is a unit, `cm`, `[cm]` or `(cm)`.
 pub(super) fn is_unit(cell: &str) -> bool {
-    // Of signals, whose unit does not matter.
-    const VOLTS: [&str; 4] = ["V", "mV", "Volt", "Volts"];
-    let unit = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim();
-    VOLTS.contains(&unit) || ending_of_unit(unit).is_some()
+    // The unit of a signal does not matter.
+    let unit = without_brackets(cell);
+    is_one_of(unit, "V mV Volt Volts") || ending_of_unit(unit).is_some()
 }
 
-/// Returns the ending of a name that stands for a unit.
-fn ending_of_unit(unit: &str) -> Option<&'static str> {
-    if let Some(ending) = other_ending(unit) {
-        return Some(ending);
-    }
-    let (scale, dimension) = parse_quantity(&format!("1 {unit}")).ok()?;
-    ending_like(scale, dimension.0).map(|ending| ending.text)
+fn without_brackets(cell: &str) -> &str {
+    cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim()
 }
 
 /// Returns the names of columns with the units of the row below them, `speed` above `mm/s`, if that is a row of units:
@@ -184,12 +129,9 @@ pub(super) fn with_units(
     if row.iter().any(|cell| is_number(cell) && !cell.starts_with("1/")) {
         return None;
     }
-    let unit = |cell: &String| {
-        if is_missing(cell) {
-            return None;
-        }
-        let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-        ending_of_unit(bare.trim())
+    let unit = |cell: &String| match is_missing(cell) {
+        true => None,
+        false => ending_of_unit(without_brackets(cell)),
     };
     let units: Vec<Option<&str>> = row.iter().map(unit).collect();
     let fits = |(unit, below): (&Option<&str>, &String)| {
@@ -205,8 +147,7 @@ pub(super) fn with_units(
 
 /// Whether a cell has no value.
 pub(super) fn is_missing(cell: &str) -> bool {
-    const WORDS: [&str; 9] = ["", "nan", "na", "n/a", "n.a.", "#n/a", "null", "-", "--"];
-    WORDS.contains(&cell.to_lowercase().as_str())
+    is_one_of(&cell.to_ascii_lowercase(), " nan na n/a n.a. #n/a null - --")
 }
 
 /// Returns a number with a decimal comma, such as `0,92` or `5,5 cm/s`, with a point; any other text is unchanged.

@@ -14,15 +14,14 @@ use fem_material::engineering::number;
 
 use super::cells::Cells;
 use super::column_roles::{
-    bare, before_brackets, column_names, ending_of, is_key, readings, uncertainty_of,
+    bare, before_brackets, column_names, ending_of, is_key, is_one_of, readings, uncertainty_of,
 };
 use super::csv_dialect::{
-    column_name, is_mean, is_missing, separator, tabs_for_blanks, value_and_uncertainty,
-    with_point, with_signs_named, with_units,
+    column_name, is_mean, is_missing, value_and_uncertainty, with_point, with_signs_named,
+    with_units,
 };
 use super::data_error::{DataError, one_line};
-use super::preamble::without_preamble;
-use super::record_layouts::as_table;
+use super::layouts::{as_table, is_comment, separator, tabs_for_blanks, without_preamble};
 
 /// A table in memory with its cells as text, which are kept in one string.
 ///
@@ -30,7 +29,7 @@ use super::record_layouts::as_table;
 /// use fem_data::table::Table;
 ///
 /// let table = Table::parse("e.csv", "# glass\nspeed_cm_s, e\n50, 0.925\n")?;
-/// let speed = table.require(&["speed"], "speed_m_s")?;
+/// let speed = table.require("speed", "speed_m_s")?;
 /// assert_eq!(table.number(0, speed, [1, 0, -1])?, 0.5);
 ///
 /// let error = table.number(0, speed, [0, 0, 1]).unwrap_err();
@@ -61,15 +60,6 @@ pub struct NumberColumn {
     pub resolution: f64,
 }
 
-/// What rows may be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Rows {
-    /// As long as the header.
-    Even,
-    /// They have any length: what an instrument sets beside its samples is left out, and cells that are not there have no value.
-    Ragged,
-}
-
 /// The beginnings of `.xlsx`, `.ods` and other packed files, and of `.xls`, read as Latin-1.
 const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
 
@@ -93,7 +83,7 @@ impl Table {
     /// # Errors
     /// The text is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
-        Self::read(name, text, 0, Rows::Even)
+        Self::read(name, text, None)
     }
 
     /// Parses the record of an instrument: the settings of an oscilloscope beside its samples are left out, and rows may be
@@ -107,7 +97,7 @@ impl Table {
     ///
     /// let text = "mass_A\nt;y\ns;cm\n0,00;12,5\n0,01;\n0,02;12,7\n";
     /// let track = Table::of_record("track.txt", text)?;
-    /// let y = track.find(&["y"])?.expect("a column");
+    /// let y = track.find("y")?.expect("a column");
     /// let heights = track.numbers(y, [1, 0, 0])?;
     /// assert_eq!(heights.values[2], 0.127);
     /// assert!(heights.values[1].is_nan());
@@ -116,11 +106,13 @@ impl Table {
     /// ```
     pub fn of_record(name: &str, text: &str) -> Result<Self, DataError> {
         let (text, n_added) = as_table(text.trim_start_matches('\u{feff}'));
-        Self::read(name, &text, n_added, Rows::Ragged)
+        Self::read(name, &text, Some(n_added))
     }
 
-    /// Reads a table below `n_added` lines that the text does not have.
-    fn read(name: &str, text: &str, n_added: u64, kind: Rows) -> Result<Self, DataError> {
+    /// Reads a table, or a record of an instrument with the number of lines that its text does not have. Rows of a table are as long as
+    /// the header; those of a record have any length.
+    fn read(name: &str, text: &str, added_to_record: Option<u64>) -> Result<Self, DataError> {
+        let n_added = added_to_record.unwrap_or(0);
         let name = one_line(name);
         let text = text.trim_start_matches('\u{feff}');
         if PACKED.iter().any(|mark| text.starts_with(mark)) {
@@ -128,7 +120,7 @@ impl Table {
                 DataError::new(&name, "this is a spreadsheet or another packed file, not text");
             return Err(error.with_help("save the table as CSV, and name that file"));
         }
-        let text = without_preamble(text, kind == Rows::Even);
+        let text = without_preamble(text, added_to_record.is_none());
         let text = &*tabs_for_blanks(&text);
         let (separator, below) = separator(text);
         // The line `sep=;` becomes a comment, so that all lines keep their numbers.
@@ -138,7 +130,7 @@ impl Table {
         };
         let (header, header_line) = named_columns(&name, &text, separator)?;
         let mut header = with_signs_named(header);
-        let cells = cells(&name, &text, (separator, n_added), (header.len(), kind))?;
+        let cells = cells(&name, &text, separator, header.len(), added_to_record)?;
         let (cells, left_out) = without_means(cells);
         let mut cells = split_uncertainties(&mut header, cells);
         let names = header.clone();
@@ -163,8 +155,7 @@ impl Table {
             return Err(DataError::new(&name, "there is no row below the header"));
         }
         let has_decimal_commas = separator != b',';
-        let named = Vec::new();
-        let header_line = header_line.saturating_sub(n_added).max(1);
+        let (named, header_line) = (Vec::new(), header_line.saturating_sub(n_added).max(1));
         let table = Self {
             name,
             header,
@@ -182,12 +173,13 @@ impl Table {
 
     /// Rejects two columns of the same name, of which a reader would take one.
     fn check_header(&self) -> Result<(), DataError> {
-        let mut columns = self.header.iter().enumerate().filter(|(_, name)| !name.is_empty());
-        let twice = columns.find_map(|(column, name)| {
-            let first = self.header[..column].iter().position(|other| other == name)?;
-            Some((name, first + 1, column + 1))
+        let first = |name: &String| self.header.iter().position(|other| other == name);
+        let mut twice = (0..self.header.len()).filter_map(|second| {
+            let name = &self.header[second];
+            let first = first(name).filter(|first| !name.is_empty() && *first < second)?;
+            Some((name, first + 1, second + 1))
         });
-        let Some((name, first, second)) = twice else { return Ok(()) };
+        let Some((name, first, second)) = twice.next() else { return Ok(()) };
         let message = format!("the columns {first} and {second} have the same name, {name}");
         Err(self.header_fault(message).in_column(name).with_help("rename one of the two"))
     }
@@ -197,18 +189,17 @@ impl Table {
         if !self.has_decimal_commas {
             return Ok(());
         }
-        let number_with = |cell: &str, sign: char| {
-            cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok()
-        };
-        let cells = || {
+        let with = |sign: char| {
+            let is_it = |(row, column): &(usize, usize)| {
+                let cell = self.text(*row, *column);
+                cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok()
+            };
             let columns = 0..self.header.len();
-            (0..self.n_rows()).flat_map(move |row| {
-                columns.clone().map(move |column| (row, self.text(row, column)))
-            })
+            let mut cells =
+                (0..self.n_rows()).flat_map(|row| columns.clone().map(move |it| (row, it)));
+            cells.find(is_it).map(|(row, column)| (row, self.text(row, column)))
         };
-        let point = cells().find(|(_, cell)| number_with(cell, '.'));
-        let comma = cells().find(|(_, cell)| number_with(cell, ','));
-        let (Some((_, point)), Some((row, comma))) = (point, comma) else { return Ok(()) };
+        let (Some((_, point)), Some((row, comma))) = (with('.'), with(',')) else { return Ok(()) };
         let message = format!("\"{comma}\" has a comma, and \"{point}\" a point");
         Err(self.fault(row, message).with_help(
             "write all numbers with decimal points or all with decimal commas, and no separator of thousands",
@@ -286,19 +277,20 @@ impl Table {
         &self.header
     }
 
-    /// Returns the column that has one of these names, with or without the ending of a unit or another text in brackets.
+    /// Returns the column that has one of these names, which are separated by blanks, with or without the ending of a unit or another
+    /// text in brackets.
     ///
     /// # Errors
     /// Two columns have one.
-    pub fn find(&self, names: &[&str]) -> Result<Option<usize>, DataError> {
+    pub fn find(&self, names: &str) -> Result<Option<usize>, DataError> {
         let is_it = |column: &usize| {
-            readings(&self.header[*column]).any(|reading| names.contains(&reading))
+            readings(&self.header[*column]).any(|reading| is_one_of(reading, names))
         };
         if let Some(named) = self.named.iter().copied().find(is_it) {
             return Ok(Some(named));
         }
         let is_before_brackets =
-            |column: &usize| names.contains(&before_brackets(&self.header[*column]));
+            |column: &usize| is_one_of(before_brackets(&self.header[*column]), names);
         match self.only((0..self.header.len()).filter(is_it))? {
             None => self.only((0..self.header.len()).filter(is_before_brackets)),
             found => Ok(found),
@@ -326,9 +318,10 @@ impl Table {
     ///
     /// # Errors
     /// No column has one of the names, or two have.
-    pub fn require(&self, names: &[&str], example: &str) -> Result<usize, DataError> {
+    pub fn require(&self, names: &str, example: &str) -> Result<usize, DataError> {
         self.find(names)?.ok_or_else(|| {
-            let (name, found) = (names[0], self.header.join(", "));
+            let name = names.split(' ').next().unwrap_or(names);
+            let found = self.header.join(", ");
             let one_cell = match self.header.len() {
                 1 => "; cells are separated by commas, semicolons, tabs or blanks",
                 _ => "",
@@ -536,10 +529,6 @@ impl Table {
     }
 }
 
-fn is_comment(line: &str) -> bool {
-    line.trim().is_empty() || line.starts_with('#')
-}
-
 fn reader(text: &str, separator: u8) -> csv::Reader<&[u8]> {
     csv::ReaderBuilder::new()
         .delimiter(separator)
@@ -569,8 +558,9 @@ fn named_columns(name: &str, text: &str, separator: u8) -> Result<(Vec<String>, 
 fn cells(
     name: &str,
     text: &str,
-    (separator, n_added): (u8, u64),
-    (n_columns, kind): (usize, Rows),
+    separator: u8,
+    n_columns: usize,
+    added_to_record: Option<u64>,
 ) -> Result<Cells, DataError> {
     let lines: Vec<&str> = text.lines().collect();
     // The reader counts comments above a row to the row.
@@ -578,7 +568,7 @@ fn cells(
         let first = position.map_or(0, csv::Position::line) as usize;
         let above = lines.iter().skip(first.saturating_sub(1));
         let line = (first + above.take_while(|line| is_comment(line)).count()) as u64;
-        line.saturating_sub(n_added)
+        line.saturating_sub(added_to_record.unwrap_or(0))
     };
     let mut cells = Cells::new(n_columns);
     let mut reader = reader(text, separator);
@@ -596,7 +586,7 @@ fn cells(
         // Spreadsheets end rows with empty cells.
         let n_empty = record.iter().rev().take_while(|cell| cell.is_empty()).count();
         let fits = record.len() >= n_columns && record.len() - n_empty <= n_columns;
-        if kind == Rows::Even && !fits {
+        if added_to_record.is_none() && !fits {
             let n_cells = (record.len() - n_empty).max(record.len().min(n_columns));
             let message = format!("{n_cells} cells below a header of {n_columns}");
             let error = DataError::new(name, message).in_line(line);

@@ -6,7 +6,7 @@
 //!             │
 //!             └─ column_roles ─ csv_table ─┬── restitution_table
 //!                speed_cm_s     CSV        ├── sweep_table: results of sweeps, values of swept keys
-//!                                          └── moduli: storage and loss over frequency (temperature_blocks)
+//!                layouts: as one table      └── moduli: storage and loss over frequency
 //! ```
 //!
 //! Callers pass texts and their names; nothing is opened here.
@@ -16,17 +16,15 @@ mod column_roles;
 mod csv_dialect;
 mod csv_table;
 mod data_error;
+mod layouts;
 mod library_data;
 mod moduli;
 mod pairs;
-mod preamble;
 mod quantity;
 mod rebounds;
-mod record_layouts;
 mod restitution_table;
 mod restitutions;
 mod sweep_table;
-mod temperature_blocks;
 
 pub(crate) use column_roles::{DROP_HEIGHTS, RESTITUTIONS, is_numbered};
 pub use csv_dialect::decode;

@@ -5,15 +5,13 @@ use std::f64::consts::{PI, TAU};
 use fem_material::ZERO_CELSIUS;
 
 use super::column_roles::{
-    ANGULAR_FREQUENCIES, COMPLEX_ENDS, COMPLEX_MODULI, FREQUENCIES, LOSS_ENDS, LOSS_FACTORS,
-    LOSS_MODULI, PHASES, PRESSURE, RELAXATION_ENDS, RELAXATION_MODULI, SHORT_TEMPERATURES,
-    STORAGE_ENDS, STORAGE_MODULI, STRAINS, STRESSES, TEMPERATURES, TIMES, bare, before_brackets,
-    ending_of,
+    ANGULAR_FREQUENCIES, FREQUENCIES, PRESSURE, TEMPERATURES, bare, before_brackets, ending_of,
+    is_one_of,
 };
 use super::csv_dialect::column_name;
 use super::csv_table::Table;
 use super::data_error::DataError;
-use super::temperature_blocks::with_temperature_column;
+use super::layouts::with_temperature_column;
 
 /// Temperatures of measurements, K.
 const SENSIBLE_TEMPERATURES: std::ops::RangeInclusive<f64> = 50.0..=1500.0;
@@ -116,98 +114,102 @@ enum Role {
     Frequency,
     AngularFrequency,
     Time,
-    Temperature(&'static str),
-    Storage(Option<Modulus>),
-    Loss(Option<Modulus>),
-    Complex(Option<Modulus>),
-    Relaxation(Option<Modulus>),
+    Temperature,
+    Storage,
+    Loss,
+    Complex,
+    Relaxation,
     LossFactor,
     Phase,
     Stress,
     Strain,
 }
 
+/// Names of columns by their meaning.
+const NAMES: [(Role, &str); 7] = [
+    (Role::Stress, "stress tensile_stress shear_stress σ τ oscillation_stress"),
+    (Role::Strain, "strain tensile_strain shear_strain ε γ oscillation_strain"),
+    (Role::Frequency, FREQUENCIES),
+    (Role::AngularFrequency, ANGULAR_FREQUENCIES),
+    (
+        Role::LossFactor,
+        "tan_delta tan_δ tanδ tandelta tan(delta) tan(δ) tand tan_del loss_factor damping_factor",
+    ),
+    (Role::Phase, "phase phase_angle delta δ loss_angle phase_lag"),
+    (Role::Time, "time t step_time"),
+];
+
+/// Names of moduli that may be of Young or of shear, and the ends of names that begin with `e` or `g`, `e'`, `g_stor`, or are one of
+/// these.
+const MODULI: [(Role, &str, &str); 4] = [
+    (
+        Role::Storage,
+        "storage_modulus storage stor._modulus storage_mod.",
+        "' ′ ’ _stor _storage _prime 1 `",
+    ),
+    (Role::Loss, "loss_modulus loss loss_mod.", "'' ″ \" ′′ ’’ ” _loss _double_prime 2 ``"),
+    (
+        Role::Complex,
+        "complex_modulus dynamic_modulus absolute_modulus modulus",
+        "* _star _complex _comp _abs",
+    ),
+    (Role::Relaxation, "relaxation_modulus modulus relaxation relax._modulus", " (t) _relax"),
+];
+
 impl Role {
-    /// Returns the meaning of a column by its name.
-    fn of(header: &str, has_frequency: bool) -> Option<Self> {
-        let unit = ending_of(header).map_or("", |ending| ending.text);
-        let is_temperature = ["_degc", "_degf", "_kelvin"].contains(&unit);
-        if let Some((_, unit)) = SHORT_TEMPERATURES.iter().find(|(name, _)| *name == header) {
-            return Some(Self::Temperature(unit));
+    /// Returns the meaning of a column by its name, and the modulus that it says.
+    fn of(header: &str, has_frequency: bool) -> Option<(Self, Option<Modulus>)> {
+        if temperature_scale(header, has_frequency).is_some() {
+            return Some((Self::Temperature, None));
         }
         let name = bare(header);
-        // The letter t alone is a time if there is no frequency.
-        if TEMPERATURES.contains(&name)
-            && (is_temperature || (unit.is_empty() && (name != "t" || has_frequency)))
-        {
-            return Some(Self::Temperature(if is_temperature { unit } else { "_degc" }));
+        let named = NAMES.into_iter().find(|(role, names)| {
+            is_one_of(name, names) && !(*role == Self::Time && has_frequency)
+        });
+        if let Some((role, _)) = named {
+            return Some((role, None));
         }
-        let plain: [(&[&str], Self); 6] = [
-            (&STRESSES, Self::Stress),
-            (&STRAINS, Self::Strain),
-            (&FREQUENCIES, Self::Frequency),
-            (&ANGULAR_FREQUENCIES, Self::AngularFrequency),
-            (&LOSS_FACTORS, Self::LossFactor),
-            (&PHASES, Self::Phase),
-        ];
-        if let Some((_, role)) = plain.into_iter().find(|(names, _)| names.contains(&name)) {
-            return Some(role);
-        }
-        if TIMES.contains(&name) && !has_frequency {
-            return Some(Self::Time);
-        }
-        let (modulus, words) = match name {
-            _ if name.starts_with("shear_") => (Some(Modulus::Shear), &name["shear_".len()..]),
-            _ if name.starts_with("young's_") => (Some(Modulus::Young), &name["young's_".len()..]),
-            _ if name.starts_with("tensile_") => (Some(Modulus::Young), &name["tensile_".len()..]),
-            _ => (None, name),
-        };
-        let letters = [("e", Modulus::Young), ("g", Modulus::Shear)];
-        let kinds: [(OfModulus, &[&str], &[&str]); 4] = [
-            (Self::Storage, &STORAGE_MODULI, &STORAGE_ENDS),
-            (Self::Loss, &LOSS_MODULI, &LOSS_ENDS),
-            (Self::Complex, &COMPLEX_MODULI, &COMPLEX_ENDS),
-            (Self::Relaxation, &RELAXATION_MODULI, &RELAXATION_ENDS),
-        ];
-        // "|e*|" is written with bars, "e_stor." with a point.
-        let spellings = [name, name.trim_matches(['|', '.'])];
-        let by_letter = |ends: &[&str]| {
-            let of = |(letter, modulus): (&str, Modulus)| {
-                let ends_so =
-                    |name: &&str| name.strip_prefix(letter).is_some_and(|end| ends.contains(&end));
-                spellings.iter().any(ends_so).then_some(modulus)
-            };
-            letters.into_iter().find_map(of)
-        };
-        kinds.into_iter().find_map(|(kind, names, ends)| {
+        let (young, shear) = (Some(Modulus::Young), Some(Modulus::Shear));
+        let prefixes = [("shear_", shear), ("young's_", young), ("tensile_", young), ("", None)];
+        let split = |(prefix, modulus)| Some((name.strip_prefix(prefix)?, modulus));
+        let (words, modulus) = prefixes.into_iter().find_map(split)?;
+        MODULI.into_iter().find_map(|(role, names, ends)| {
             // The word modulus alone belongs to a complex modulus over frequency and to a relaxation test over time.
-            let is_other =
-                words == "modulus" && (kind(None) == Self::Complex(None)) != has_frequency;
-            if names.contains(&words) && !is_other {
-                return Some(kind(modulus));
+            let is_other = words == "modulus" && (role == Self::Complex) != has_frequency;
+            if is_one_of(words, names) && !is_other {
+                return Some((role, modulus));
             }
-            by_letter(ends).map(|modulus| kind(Some(modulus)))
+            // "|e*|" is written with bars, "e_stor." with a point.
+            let ends_so = |name: &str, letter| {
+                name.strip_prefix(letter).is_some_and(|end| is_one_of(end, ends))
+            };
+            [("e", young), ("g", shear)].into_iter().find_map(|(letter, modulus)| {
+                let is_it = ends_so(name, letter) || ends_so(name.trim_matches(['|', '.']), letter);
+                is_it.then_some((role, modulus))
+            })
         })
     }
 
     fn is_abscissa(self) -> bool {
         matches!(self, Self::Frequency | Self::AngularFrequency | Self::Time)
     }
-
-    fn is_of_modulus(self) -> bool {
-        matches!(self, Self::Storage(_) | Self::Loss(_) | Self::Complex(_) | Self::Relaxation(_))
-    }
-
-    fn modulus(self) -> Option<Modulus> {
-        match self {
-            Self::Storage(of) | Self::Loss(of) | Self::Complex(of) | Self::Relaxation(of) => of,
-            _ => None,
-        }
-    }
 }
 
-/// The role of a column of this modulus, if the column says which it is.
-type OfModulus = fn(Option<Modulus>) -> Role;
+/// Returns the ending of the scale of a column of temperatures, which is °C without one.
+fn temperature_scale(header: &str, has_frequency: bool) -> Option<&'static str> {
+    let letters = [("_c", "_degc"), ("_k", "_kelvin"), ("_f", "_degf")];
+    let by_letter = |(letter, _): &(&str, &str)| {
+        header.strip_suffix(letter).is_some_and(|name| is_one_of(name, "temperature temp t"))
+    };
+    let name = bare(header);
+    match (letters.into_iter().find(by_letter), ending_of(header).map(|ending| ending.text)) {
+        (Some((_, scale)), _) => Some(scale),
+        _ if !is_one_of(name, TEMPERATURES) => None,
+        // The letter t alone is a time if there is no frequency.
+        (None, None) => (name != "t" || has_frequency).then_some("_degc"),
+        (None, scale) => scale.filter(|it| ["_degc", "_degf", "_kelvin"].contains(it)),
+    }
+}
 
 /// The columns that a table may have.
 const COLUMNS: &str = "a table has a frequency [Hz] or omega [rad/s], and E' [MPa] with E'' [MPa] or tan_delta, or |E*| [MPa] \
@@ -233,39 +235,44 @@ fn missing_column(table: &Table, what: &str, has_frequency: bool) -> DataError {
     table.header_fault(message).with_help(COLUMNS)
 }
 
-/// The columns that the rows of a table are read from, each with its role.
+/// A column with its role.
+type Column = (usize, Role);
+
+/// The columns that the rows of a table are read from.
 struct Columns<'a> {
     table: &'a Table,
-    abscissa: (usize, Role),
-    temperature: Option<(usize, Role)>,
+    abscissa: Column,
+    temperature: Option<usize>,
     /// One modulus of a relaxation test; of an oscillation a modulus and the loss modulus or factor.
-    moduli: Vec<(usize, Role)>,
+    moduli: Vec<Column>,
+    /// The modulus that these columns say.
+    named: Option<Modulus>,
 }
 
 impl<'a> Columns<'a> {
-    fn of(table: &'a Table) -> Result<Self, DataError> {
+    /// Finds the columns; `given` is the modulus of the caller.
+    fn of(table: &'a Table, given: Option<Modulus>) -> Result<Self, DataError> {
         let is_frequency = |name: &String| {
-            let name = bare(name);
-            FREQUENCIES.contains(&name) || ANGULAR_FREQUENCIES.contains(&name)
+            is_one_of(bare(name), FREQUENCIES) || is_one_of(bare(name), ANGULAR_FREQUENCIES)
         };
         let has_frequency = table.header().iter().any(is_frequency);
-        let role = |header: &String| Role::of(header, has_frequency);
-        let roles: Vec<Option<Role>> = table.header().iter().map(role).collect();
-        let find = |is: fn(Role) -> bool| {
-            let fits = |column: &usize| roles[*column].is_some_and(is);
-            let found = table.only((0..roles.len()).filter(fits))?;
-            Ok::<_, DataError>(found.and_then(|column| Some((column, roles[column]?))))
+        let roles: Vec<_> =
+            table.header().iter().map(|header| Role::of(header, has_frequency)).collect();
+        let of = |column: usize| roles[column].map(|(role, _)| role);
+        let find = |role: Role| -> Result<Option<Column>, DataError> {
+            let found = table.only((0..roles.len()).filter(|column| of(*column) == Some(role)))?;
+            Ok(found.map(|column| (column, role)))
         };
         let missing = |what: &str| missing_column(table, what, has_frequency);
-        let known = (0..roles.len()).filter_map(|column| Some((column, roles[column]?)));
-        let mut abscissae: Vec<_> = known.filter(|(_, role)| role.is_abscissa()).collect();
+        let known = (0..roles.len()).filter_map(|column| Some((column, of(column)?)));
+        let mut abscissae: Vec<Column> = known.filter(|(_, role)| role.is_abscissa()).collect();
         if let [first, second] = abscissae[..]
             && agree(table, first, second)
         {
             abscissae.pop();
         }
         table.only(abscissae.iter().map(|(column, _)| *column))?;
-        let temperature = find(|role| matches!(role, Role::Temperature(_)))?;
+        let temperature = find(Role::Temperature)?.map(|(column, _)| column);
         let Some(abscissa) = abscissae.first().copied() else {
             let error = missing("a frequency or a time");
             return Err(match temperature {
@@ -275,55 +282,46 @@ impl<'a> Columns<'a> {
                 None => error,
             });
         };
-        let storage = find(|role| matches!(role, Role::Storage(_)))?;
-        let loss = find(|role| matches!(role, Role::Loss(_)))?;
-        let complex = find(|role| matches!(role, Role::Complex(_)))?;
-        let factor = match find(|role| role == Role::LossFactor)? {
-            None => find(|role| role == Role::Phase)?,
-            factor => factor,
-        };
-        let relaxation = find(|role| matches!(role, Role::Relaxation(_)))?;
-        let [stress, strain] = match abscissa.1 {
-            Role::Time => [find(|role| role == Role::Stress)?, find(|role| role == Role::Strain)?],
-            _ => [None; 2],
-        };
-        let moduli = match (storage, loss, complex, factor) {
-            _ if abscissa.1 == Role::Time => match (relaxation, stress, strain) {
-                (Some(modulus), ..) => vec![modulus],
-                (None, Some((stress, _)), Some(strain)) => {
-                    vec![(stress, Role::Relaxation(None)), strain]
+        let moduli = if abscissa.1 == Role::Time {
+            let columns = [Role::Relaxation, Role::Stress, Role::Strain].map(find);
+            match columns {
+                [Ok(Some(modulus)), Ok(_), Ok(_)] => vec![modulus],
+                [Ok(None), Ok(Some((stress, _))), Ok(Some(strain))] => {
+                    vec![(stress, Role::Relaxation), strain]
                 }
+                [Err(error), ..] | [_, Err(error), _] | [.., Err(error)] => return Err(error),
                 _ => return Err(missing("the relaxation modulus, or of stress and strain")),
-            },
-            (Some(first), Some(second), ..)
-            | (Some(first), None, _, Some(second))
-            | (None, _, Some(first), Some(second)) => vec![first, second],
-            (Some(_), ..) => return Err(missing("the loss modulus or of tan δ")),
-            (None, ..) => return Err(missing("the storage modulus")),
+            }
+        } else {
+            let factor = find(Role::LossFactor)?;
+            let factor = if factor.is_none() { find(Role::Phase)? } else { factor };
+            match (find(Role::Storage)?, find(Role::Loss)?, find(Role::Complex)?, factor) {
+                (Some(first), Some(second), ..)
+                | (Some(first), None, _, Some(second))
+                | (None, _, Some(first), Some(second)) => vec![first, second],
+                (Some(_), ..) => return Err(missing("the loss modulus or of tan δ")),
+                (None, ..) => return Err(missing("the storage modulus")),
+            }
         };
-        Ok(Self { table, abscissa, temperature, moduli })
+        let said = || moduli.iter().filter_map(|(column, _)| roles[*column]?.1);
+        let named = said().next();
+        if said().any(|other| Some(other) != named) {
+            let message = "one modulus is Young's and the other one of shear";
+            return Err(table.header_fault(message).with_help("both are of one test"));
+        }
+        if let (Some(given), Some(named)) = (given, named)
+            && given != named
+        {
+            let message = format!("the columns are of the {}", named.key().replace('_', " "));
+            return Err(table.header_fault(message).with_help("leave out --modulus"));
+        }
+        Ok(Self { table, abscissa, temperature, moduli, named })
     }
 
     /// Returns the columns that are read.
     fn read(&self) -> impl Iterator<Item = usize> {
-        self.moduli.iter().chain([&self.abscissa]).chain(&self.temperature).map(|it| it.0)
-    }
-
-    /// Returns the modulus that the columns say; `given` is that of the caller.
-    fn named_modulus(&self, given: Option<Modulus>) -> Result<Option<Modulus>, DataError> {
-        let named = || self.moduli.iter().filter_map(|(_, role)| role.modulus());
-        let found = named().next();
-        if named().any(|other| Some(other) != found) {
-            let message = "one modulus is Young's and the other one of shear";
-            return Err(self.table.header_fault(message).with_help("both are of one test"));
-        }
-        if let (Some(given), Some(found)) = (given, found)
-            && given != found
-        {
-            let message = format!("the columns are of the {}", found.key().replace('_', " "));
-            return Err(self.table.header_fault(message).with_help("leave out --modulus"));
-        }
-        Ok(found)
+        let columns = self.moduli.iter().chain([&self.abscissa]).map(|(column, _)| *column);
+        columns.chain(self.temperature)
     }
 
     /// Returns the point of a row; `None` if a cell has no value.
@@ -333,8 +331,9 @@ impl<'a> Columns<'a> {
         }
         let (column, role) = self.moduli[0];
         let first = self.modulus(row, column)?;
-        let [storage, loss] = match self.moduli[1..] {
-            [(column, Role::Loss(_)), ..] => {
+        let [storage, loss] = match self.moduli.get(1).copied() {
+            None => [first, 0.0],
+            Some((column, Role::Loss)) => {
                 let loss = self.modulus(row, column)?;
                 if loss > LARGEST_LOSS_FACTOR * first {
                     let help = "a solid has a loss factor of at most 10: are the columns exchanged, or of different units?";
@@ -342,25 +341,21 @@ impl<'a> Columns<'a> {
                 }
                 [first, loss]
             }
-            [(column, Role::Strain), ..] => {
+            Some((column, Role::Strain)) => {
                 let strain = self.table.number(row, column, [0; 3])?;
                 if !(strain.abs() > 0.0 && strain.is_finite()) {
                     return Err(self.table.cell_fault(row, column, strain, "the strain is not 0"));
                 }
                 [first / strain.abs(), 0.0]
             }
-            [(column, of_factor), ..] => {
+            Some((column, of_factor)) => {
                 let factor = self.loss_factor(row, column, of_factor)?;
-                let is_complex = matches!(role, Role::Complex(_));
+                let is_complex = role == Role::Complex;
                 let storage = if is_complex { first / factor.hypot(1.0) } else { first };
                 [storage, storage * factor]
             }
-            [] => [first, 0.0],
         };
-        let temperature = match self.temperature {
-            Some((column, Role::Temperature(unit))) => Some(self.kelvin(row, column, unit)?),
-            _ => None,
-        };
+        let temperature = self.temperature.map(|column| self.kelvin(row, column)).transpose()?;
         let at = abscissa_at(self.table, row, self.abscissa)?;
         Ok(Some(ModulusPoint { at, storage, loss, temperature, line: self.table.line(row) }))
     }
@@ -368,16 +363,51 @@ impl<'a> Columns<'a> {
     /// Returns a modulus, Pa, > 0.
     fn modulus(&self, row: usize, column: usize) -> Result<f64, DataError> {
         let value = self.table.number(row, column, PRESSURE)?;
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(self.table.cell_fault(row, column, value, "a modulus is above 0"));
-        }
         let is_bare = ending_of(&self.table.header()[column]).is_none()
             && self.table.text(row, column).parse::<f64>().is_ok();
-        if is_bare && value < SMALLEST_BARE_MODULUS {
-            let help = "a bare number is in Pa: name the unit in the header, such as E' [MPa] or storage_modulus_mpa";
-            return Err(self.table.cell_fault(row, column, value, help));
+        let help = match value > 0.0 && value.is_finite() {
+            false => "a modulus is above 0",
+            true if is_bare && value < SMALLEST_BARE_MODULUS => {
+                "a bare number is in Pa: name the unit in the header, such as E' [MPa] or storage_modulus_mpa"
+            }
+            true => return Ok(value),
+        };
+        Err(self.table.cell_fault(row, column, value, help))
+    }
+
+    /// Returns a temperature, K.
+    fn kelvin(&self, row: usize, column: usize) -> Result<f64, DataError> {
+        let value = self.table.number(row, column, [0; 3])?;
+        let kelvin = match temperature_scale(&self.table.header()[column], true) {
+            Some("_kelvin") => value,
+            Some("_degf") => (value - 32.0) / 1.8 + ZERO_CELSIUS,
+            _ => value + ZERO_CELSIUS,
+        };
+        match SENSIBLE_TEMPERATURES.contains(&kelvin) {
+            true => Ok(kelvin),
+            false => {
+                let help = "temperatures are in °C unless the header has [K] or [°F]";
+                Err(self.table.cell_fault(row, column, value, help))
+            }
         }
-        Ok(value)
+    }
+
+    /// Returns the loss factor of a row by one of its columns.
+    fn loss_factor(&self, row: usize, column: usize, role: Role) -> Result<f64, DataError> {
+        let value = self.table.number(row, column, [0; 3])?;
+        let factor = match (role, ending_of(&self.table.header()[column])) {
+            (Role::Phase, None) => (value * PI / 180.0).tan(),
+            (Role::Phase, Some(_)) => value.tan(),
+            _ => value,
+        };
+        let help = match role {
+            _ if (0.0..=LARGEST_LOSS_FACTOR).contains(&factor) => return Ok(factor),
+            Role::Phase => "a phase angle is from 0 to 84 degrees, without a unit in degrees",
+            _ => {
+                "a loss factor is E''/E', from 0 to 10; an angle is a column phase_deg, and per cents are tan_delta [%]"
+            }
+        };
+        Err(self.table.cell_fault(row, column, value, help))
     }
 }
 
@@ -385,7 +415,7 @@ impl<'a> Columns<'a> {
 const ROUNDED: f64 = 1e-3;
 
 /// Whether two columns of frequencies have the same ones in all rows.
-fn agree(table: &Table, first: (usize, Role), second: (usize, Role)) -> bool {
+fn agree(table: &Table, first: Column, second: Column) -> bool {
     (0..table.n_rows()).all(|row| {
         match [first, second].map(|column| abscissa_at(table, row, column)) {
             [Ok(one), Ok(other)] => (one / other - 1.0).abs() < ROUNDED,
@@ -396,69 +426,28 @@ fn agree(table: &Table, first: (usize, Role), second: (usize, Role)) -> bool {
 }
 
 /// Returns an angular frequency, rad/s, or a time, s, > 0.
-fn abscissa_at(table: &Table, row: usize, (column, role): (usize, Role)) -> Result<f64, DataError> {
-    let header = &table.header()[column];
+fn abscissa_at(table: &Table, row: usize, (column, role): Column) -> Result<f64, DataError> {
     let dimension = if role == Role::Time { [0, 0, 1] } else { [0, 0, -1] };
     let value = table.number(row, column, dimension)?;
     // The reciprocal second of an angular frequency is no cycle.
     let is_phase_rate = role == Role::AngularFrequency
-        && ending_of(header).is_none_or(|ending| ending.text == "_per_s");
+        && ending_of(&table.header()[column]).is_none_or(|ending| ending.text == "_per_s");
     if !(value > 0.0 && value.is_finite()) {
         return Err(table.cell_fault(row, column, value, "it is above 0"));
     }
     Ok(if role == Role::Time || is_phase_rate { value } else { TAU * value })
 }
 
-impl Columns<'_> {
-    /// Returns a temperature, K.
-    fn kelvin(&self, row: usize, column: usize, unit: &str) -> Result<f64, DataError> {
-        let value = self.table.number(row, column, [0; 3])?;
-        let kelvin = match unit {
-            "_kelvin" => value,
-            "_degf" => (value - 32.0) / 1.8 + ZERO_CELSIUS,
-            _ => value + ZERO_CELSIUS,
-        };
-        if !SENSIBLE_TEMPERATURES.contains(&kelvin) {
-            let help = "temperatures are in °C unless the header has [K] or [°F]";
-            return Err(self.table.cell_fault(row, column, value, help));
-        }
-        Ok(kelvin)
-    }
-
-    /// Returns the loss factor of a row by one of its columns.
-    fn loss_factor(&self, row: usize, column: usize, role: Role) -> Result<f64, DataError> {
-        let value = self.table.number(row, column, [0; 3])?;
-        let header = &self.table.header()[column];
-        let factor = match (role, ending_of(header)) {
-            (Role::Phase, None) => (value * PI / 180.0).tan(),
-            (Role::Phase, Some(_)) => value.tan(),
-            _ => value,
-        };
-        let is_phase = role == Role::Phase;
-        if !(0.0..=LARGEST_LOSS_FACTOR).contains(&factor) {
-            let help = match is_phase {
-                true => "a phase angle is from 0 to 84 degrees, without a unit in degrees",
-                false => {
-                    "a loss factor is E''/E', from 0 to 10; an angle is a column phase_deg, and per cents are tan_delta [%]"
-                }
-            };
-            return Err(self.table.cell_fault(row, column, value, help));
-        }
-        Ok(factor)
-    }
-}
-
 impl ModulusTable {
     /// Returns the table of a text, without the lines above its header if there are any, and with a column of the temperatures above
     /// blocks of rows.
     fn table(name: &str, text: &str) -> Result<Table, DataError> {
-        let role = |header: &String| Role::of(header, true);
-        let has_temperature = |table: &Table| {
-            table.header().iter().any(|it| matches!(role(it), Some(Role::Temperature(_))))
-        };
+        let has_role = |it: &String| Role::of(it, true).is_some();
+        let has_temperature =
+            |table: &Table| table.header().iter().any(|it| temperature_scale(it, true).is_some());
         let whole = Table::parse(name, text);
         let found = match whole {
-            Ok(table) if table.header().iter().any(|it| role(it).is_some()) => Ok(table),
+            Ok(table) if table.header().iter().any(has_role) => Ok(table),
             whole => Table::of_record(name, text).or(whole),
         };
         if found.as_ref().is_ok_and(has_temperature) {
@@ -467,8 +456,9 @@ impl ModulusTable {
         let is_header = |line: &str| {
             let separators = if line.contains([',', ';', '\t']) { ",;\t" } else { " " };
             let cells = line.split(|c: char| separators.contains(c)).map(column_name);
-            let roles: Vec<Role> = cells.filter_map(|cell| Role::of(&cell, false)).collect();
-            roles.iter().any(|it| it.is_of_modulus()) && roles.iter().any(|it| it.is_abscissa())
+            let roles: Vec<_> = cells.filter_map(|cell| Some(Role::of(&cell, false)?.0)).collect();
+            let is_modulus = |it: &Role| MODULI.iter().any(|(role, ..)| role == it);
+            roles.iter().any(is_modulus) && roles.iter().any(|it| it.is_abscissa())
         };
         let blocks = with_temperature_column(text, is_header);
         let blocks = blocks.and_then(|text| Table::parse(name, &text).ok());
@@ -497,8 +487,8 @@ impl ModulusTable {
         modulus: Option<Modulus>,
     ) -> Result<Self, DataError> {
         let table = Self::table(name, text.trim_start_matches('\u{feff}'))?.renamed(names)?;
-        let columns = Columns::of(&table)?;
-        let named = modulus.or(columns.named_modulus(modulus)?);
+        let columns = Columns::of(&table, modulus)?;
+        let named = modulus.or(columns.named);
         let points = (0..table.n_rows()).filter_map(|row| columns.point(row).transpose());
         let points = points.collect::<Result<Vec<_>, _>>()?;
         if points.is_empty() {

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use fem_case::{parse_quantity, parse_temperature};
 
+use super::column_roles::SIGNS;
+
 /// A number with its standard uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
@@ -49,7 +51,7 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotMeasured {
     /// The text is no number of this kind.
-    #[error("{text:?} is not {}", kind.words())]
+    #[error("{text:?} is not {}", kind.row().1)]
     OtherKind {
         /// The text as it was found.
         text: String,
@@ -65,33 +67,19 @@ pub enum NotMeasured {
 }
 
 impl Kind {
-    fn dimension(self) -> [i32; 4] {
+    /// Returns the exponents of metre, kilogram, second and byte, and the words of messages.
+    fn row(self) -> ([i32; 4], &'static str) {
         match self {
-            Self::Length => [1, 0, 0, 0],
-            Self::Mass => [0, 1, 0, 0],
-            Self::Acceleration => [1, 0, -2, 0],
-            Self::Angle => [0; 4],
-            Self::Time => [0, 0, 1, 0],
-            Self::Speed => [1, 0, -1, 0],
-            Self::Density => [-3, 1, 0, 0],
-            Self::Modulus => [-1, 1, -2, 0],
-            Self::Temperature => [0; 4],
-            Self::Rate => [0, 0, -1, 0],
-        }
-    }
-
-    fn words(self) -> &'static str {
-        match self {
-            Self::Length => "a length, such as '20 cm' or '20 cm ± 1 mm'",
-            Self::Mass => "a mass, such as '13.7 g' or '13.7 g ± 0.1 g'",
-            Self::Acceleration => "an acceleration, such as '9.81 m/s^2'",
-            Self::Time => "a time, such as '50 us' or '50 us ± 5 us'",
-            Self::Speed => "a speed, such as '2 m/s' or '2 m/s ± 1 cm/s'",
-            Self::Density => "a density, such as '7800 kg/m^3'",
-            Self::Modulus => "a modulus, such as '5 GPa'",
-            Self::Temperature => "a temperature, such as '23 degC'",
-            Self::Rate => "a rate, such as '240 Hz'",
-            Self::Angle => "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'",
+            Self::Length => ([1, 0, 0, 0], "a length, such as '20 cm' or '20 cm ± 1 mm'"),
+            Self::Mass => ([0, 1, 0, 0], "a mass, such as '13.7 g' or '13.7 g ± 0.1 g'"),
+            Self::Acceleration => ([1, 0, -2, 0], "an acceleration, such as '9.81 m/s^2'"),
+            Self::Time => ([0, 0, 1, 0], "a time, such as '50 us' or '50 us ± 5 us'"),
+            Self::Speed => ([1, 0, -1, 0], "a speed, such as '2 m/s' or '2 m/s ± 1 cm/s'"),
+            Self::Density => ([-3, 1, 0, 0], "a density, such as '7800 kg/m^3'"),
+            Self::Modulus => ([-1, 1, -2, 0], "a modulus, such as '5 GPa'"),
+            Self::Temperature => ([0; 4], "a temperature, such as '23 degC'"),
+            Self::Rate => ([0, 0, -1, 0], "a rate, such as '240 Hz'"),
+            Self::Angle => ([0; 4], "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'"),
         }
     }
 }
@@ -113,9 +101,7 @@ const ANGLES: [(&str, f64); 5] =
 /// # Ok::<(), fem_data::table::NotMeasured>(())
 /// ```
 pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
-    let signs = ["±", "+/-", "+-"];
-    let sign = signs.iter().find_map(|sign| text.split_once(sign));
-    let Some((value, uncertainty)) = sign else {
+    let Some((value, uncertainty)) = SIGNS.iter().find_map(|sign| text.split_once(sign)) else {
         return Ok(Measured::exact(parse(kind, text)?));
     };
     let (value, uncertainty) = (value.trim(), uncertainty.trim());
@@ -137,14 +123,12 @@ pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
         None if uncertainty.contains('%') => return Err(wrong(kind, text)),
         None => parse(kind, uncertainty)?,
     };
-    if uncertainty < 0.0 {
-        return Err(NotMeasured::NegativeUncertainty);
+    match uncertainty {
+        negative if negative < 0.0 => Err(NotMeasured::NegativeUncertainty),
+        // A share of a large value may overflow.
+        finite if finite.is_finite() => Ok(Measured { value, uncertainty }),
+        _ => Err(wrong(kind, text)),
     }
-    // A share of a large value may overflow.
-    if !uncertainty.is_finite() {
-        return Err(wrong(kind, text));
-    }
-    Ok(Measured { value, uncertainty })
 }
 
 fn parse(kind: Kind, text: &str) -> Result<f64, NotMeasured> {
@@ -164,7 +148,7 @@ fn parse(kind: Kind, text: &str) -> Result<f64, NotMeasured> {
         return Err(NotMeasured::BareDegrees(text.to_string()));
     }
     let is_bare = dimension.0 == [0; 4] && !text.ends_with('%');
-    if is_bare || dimension.0 == kind.dimension() { Ok(value) } else { Err(wrong(kind, text)) }
+    if is_bare || dimension.0 == kind.row().0 { Ok(value) } else { Err(wrong(kind, text)) }
 }
 
 fn wrong(kind: Kind, text: &str) -> NotMeasured {

@@ -14,30 +14,17 @@ const SPEED: [i32; 3] = [1, 0, -1];
 const RATE: [i32; 3] = [0, 0, -1];
 
 /// Names of columns of the angle of the velocity before against the axis; a sweep's own names come last.
-const IMPACT_ANGLES: [&str; 8] = [
-    "impact_angle",
-    "incident_angle",
-    "incidence_angle",
-    "angle_of_incidence",
-    "angle_of_impact",
-    "angle_before",
-    "body.0.impact_angle_si",
-    "body.1.impact_angle_si",
-];
+const IMPACT_ANGLES: &str = "impact_angle incident_angle incidence_angle angle_of_incidence angle_of_impact angle_before body.0.impact_angle_si body.1.impact_angle_si";
 /// Names of columns of the tangential velocity before.
-const TANGENTIAL_BEFORE: [&str; 6] = [
-    "tangential_velocity_before",
-    "tangential_velocity",
-    "tangential_speed_before",
-    "tangential_speed",
-    "v_t",
-    "vt",
-];
+const TANGENTIAL_BEFORE: &str = "tangential_velocity_before tangential_velocity tangential_speed_before tangential_speed v_t vt";
 /// Names of columns of the whole speed before, along and across the axis.
-const RESULTANT_SPEEDS: [&str; 3] = ["resultant_speed", "resultant_velocity", "total_speed"];
+const RESULTANT_SPEEDS: &str = "resultant_speed resultant_velocity total_speed";
 /// Names of rolling resistance, which no collision has.
-const ROLLING: [&str; 3] =
-    ["rolling_friction", "rolling_resistance", "rolling_friction_coefficient"];
+const ROLLING: &str = "rolling_friction rolling_resistance rolling_friction_coefficient";
+
+/// Preferred names of columns of rebounds.
+pub(super) const REBOUNDS: &str = "impact_angle tangential_velocity_before resultant_speed rebound_angle \
+    contact_patch_rebound spin_after tangential_velocity_after tangential_restitution impulse_ratio";
 
 /// What is measured of a rebound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,28 +55,25 @@ impl ReboundQuantity {
     ];
 
     /// Returns the names of its columns, the preferred one first.
-    pub fn names(self) -> &'static [&'static str] {
+    pub fn names(self) -> &'static str {
         match self {
-            Self::ReboundAngle => {
-                &["rebound_angle", "angle_of_rebound", "reflection_angle", "angle_after"]
-            }
+            Self::ReboundAngle => "rebound_angle angle_of_rebound reflection_angle angle_after",
             Self::ContactPatchRebound => {
-                &["contact_patch_rebound", "contact_patch_rebound_angle", "patch_rebound_angle"]
+                "contact_patch_rebound contact_patch_rebound_angle patch_rebound_angle"
             }
-            Self::SpinAfter => {
-                &["spin_after", "angular_velocity_after", "spin", "angular_velocity"]
-            }
+            Self::SpinAfter => "spin_after angular_velocity_after spin angular_velocity",
             Self::TangentialVelocityAfter => {
-                &["tangential_velocity_after", "tangential_speed_after", "v_t_after"]
+                "tangential_velocity_after tangential_speed_after v_t_after"
             }
-            Self::TangentialRestitution => &["tangential_restitution", "e_t", "et"],
-            Self::ImpulseRatio => &["impulse_ratio"],
+            Self::TangentialRestitution => "tangential_restitution e_t et",
+            Self::ImpulseRatio => "impulse_ratio",
         }
     }
 
     /// Returns its preferred name.
     pub fn name(self) -> &'static str {
-        self.names()[0]
+        let names = self.names();
+        names.split(' ').next().unwrap_or(names)
     }
 
     /// Returns its unit in texts, and the factor from SI to it.
@@ -151,9 +135,9 @@ pub struct Rebounds {
 impl Rebounds {
     /// Returns whether a table has rebounds over an impact angle or a tangential velocity.
     pub fn are_in(table: &Table) -> bool {
-        let has = |names: &[&str]| !matches!(table.find(names), Ok(None));
-        let is_oblique = has(&IMPACT_ANGLES) || has(&TANGENTIAL_BEFORE);
-        is_oblique && (has(&ROLLING) || ReboundQuantity::ALL.iter().any(|it| has(it.names())))
+        let has = |names: &str| !matches!(table.find(names), Ok(None));
+        let is_oblique = has(IMPACT_ANGLES) || has(TANGENTIAL_BEFORE);
+        is_oblique && (has(ROLLING) || ReboundQuantity::ALL.iter().any(|it| has(it.names())))
     }
 
     /// Reads a table with columns like `impact_angle_deg` and `rebound_angle_deg`, and optionally `speed_m_s`, `restitution` and
@@ -172,7 +156,7 @@ impl Rebounds {
     /// # Ok::<(), fem_data::table::DataError>(())
     /// ```
     pub fn read(table: &Table) -> Result<Self, DataError> {
-        if let Some(column) = table.find(&ROLLING)? {
+        if let Some(column) = table.find(ROLLING)? {
             let message =
                 "rolling resistance is not found: a collision is over before a ball has rolled";
             return Err(table.header_fault(message).in_column(&table.header()[column]));
@@ -233,10 +217,10 @@ impl Columns {
                 (quantity, table.require(quantity.names(), "rebound_angle_deg")?)
             }
         };
-        let (angle, velocity) = (table.find(&IMPACT_ANGLES)?, table.find(&TANGENTIAL_BEFORE)?);
-        let (speed, resultant) = (table.find(&SPEEDS)?, table.find(&RESULTANT_SPEEDS)?);
+        let (angle, velocity) = (table.find(IMPACT_ANGLES)?, table.find(TANGENTIAL_BEFORE)?);
+        let (speed, resultant) = (table.find(SPEEDS)?, table.find(RESULTANT_SPEEDS)?);
         if angle.is_none() && velocity.is_none() {
-            table.require(&IMPACT_ANGLES, "impact_angle_deg")?;
+            table.require(IMPACT_ANGLES, "impact_angle_deg")?;
         }
         let twice = [angle.zip(velocity), speed.zip(resultant)];
         if let Some((one, other)) = twice.into_iter().flatten().next() {
@@ -245,7 +229,7 @@ impl Columns {
             return Err(table.header_fault(message).with_help("remove one of the two columns"));
         }
         let uncertainty = table.position(&uncertainty_of(&table.header()[after]));
-        let (restitution, complete) = (table.find(&RESTITUTIONS)?, table.find(&["complete"])?);
+        let (restitution, complete) = (table.find(RESTITUTIONS)?, table.find("complete")?);
         Ok(Self {
             quantity,
             after,
@@ -353,13 +337,4 @@ impl Columns {
             .into_iter()
             .collect())
     }
-}
-
-/// Returns all names of columns of rebounds, for renaming.
-pub(super) fn rebound_columns() -> Vec<&'static str> {
-    let quantities = ReboundQuantity::ALL.map(ReboundQuantity::name);
-    [IMPACT_ANGLES[0], TANGENTIAL_BEFORE[0], RESULTANT_SPEEDS[0]]
-        .into_iter()
-        .chain(quantities)
-        .collect()
 }

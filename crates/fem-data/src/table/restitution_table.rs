@@ -5,7 +5,7 @@
 
 use super::column_roles::{
     CONTACT_TIMES, DIAMETERS, DROP_HEIGHTS, REBOUND_HEIGHTS, REBOUND_SPEEDS, RESTITUTIONS, SPEEDS,
-    is_key, is_numbered, uncertainties, uncertainty_of,
+    is_key, is_numbered, is_one_of, uncertainties, uncertainty_of,
 };
 use super::csv_table::Table;
 use super::data_error::DataError;
@@ -23,18 +23,8 @@ use fem_material::engineering::number;
 const OPTIONAL: [&str; 5] =
     ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
 /// Other columns that tables of trials, fits and sweeps have.
-const WRITTEN: [&str; 10] = [
-    "speed_uncertainty",
-    "time",
-    "first_after",
-    "second_after",
-    "alpha",
-    "beta",
-    "fitted_restitution",
-    "residual",
-    "fitted_contact_time",
-    "member",
-];
+const WRITTEN: &str = "speed_uncertainty time first_after second_after alpha beta fitted_restitution residual \
+    fitted_contact_time member";
 
 impl Restitutions {
     /// Reads a table with columns like `speed_m_s`, `restitution` and optionally `restitution_uncertainty`, or
@@ -91,23 +81,22 @@ fn read_rows(
     wanted: Wanted<'_>,
 ) -> Result<(Restitutions, Vec<usize>), DataError> {
     let columns = Columns::of(table, scene, wanted)?;
-    let unread = table.unread(
-        &[&columns.read()[..], wanted.others].concat(),
-        &[&OPTIONAL[..], wanted.names].concat(),
-        |name| {
-            // A sweep's keys have dots in their names; their values are the same in all rows here.
-            is_key(name)
-                || COLUMNS.iter().any(|known| known == name)
-                || [&WRITTEN[..], &CONTACT_TIMES].iter().any(|known| known.contains(&name))
-        },
-    )?;
+    let diameters = wanted.diameters.map_or(&[][..], |_| &["diameter_1", "diameter_2"]);
+    let read = [&columns.read()[..], wanted.diameters.unwrap_or(&[])].concat();
+    let unread = table.unread(&read, &[&OPTIONAL[..], diameters].concat(), |name| {
+        // A sweep's keys have dots in their names; their values are the same in all rows here.
+        is_key(name)
+            || COLUMNS.iter().any(|known| known == name)
+            || is_one_of(name, WRITTEN)
+            || is_one_of(name, CONTACT_TIMES)
+    })?;
     let (mut points, mut rows) = (Vec::new(), Vec::new());
     let mut n_left_out = 0;
     for row in 0..table.n_rows() {
         let n_before = points.len();
         for column in &columns.restitutions {
-            if columns.has_result(table, row, *column) {
-                points.push(columns.point(table, row, *column)?);
+            if columns.has_result(row, *column) {
+                points.push(columns.point(row, *column)?);
                 rows.push(row);
             }
         }
@@ -117,8 +106,8 @@ fn read_rows(
         return Err(DataError::new(table.name(), "no row has a restitution"));
     }
     let uneven = even_out(&mut points, &mut rows);
-    let is_bound = |row: usize| columns.accepted.is_some_and(|it| is_bound(table, row, it));
-    let bounds = points.iter().zip(&rows).filter(|(_, row)| is_bound(**row));
+    let accepted = columns.accepted;
+    let bounds = points.iter().zip(&rows).filter(|(_, row)| columns.is_bound(**row, accepted));
     let restitutions = Restitutions {
         name: table.name().to_string(),
         n_left_out,
@@ -157,20 +146,13 @@ const STATUS: &str = "restitution_status";
 /// Its name where bounds are read as they are.
 const ACCEPTED_STATUS: &str = "accepted_restitution_status";
 
-const SPEED: [i32; 3] = [1, 0, -1];
-const TIME: [i32; 3] = [0, 0, 1];
-const LENGTH: [i32; 3] = [1, 0, 0];
-const NUMBER: [i32; 3] = [0; 3];
-
 /// The columns that are read in addition to speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]
 struct Wanted<'a> {
     /// Whether contact times are read.
     pub contact_times: bool,
-    /// Columns that the caller reads; they may differ from row to row.
-    pub others: &'a [usize],
-    /// Names of those columns.
-    pub names: &'a [&'a str],
+    /// Columns of diameters, which may differ from row to row, if these are read.
+    pub diameters: Option<&'a [usize]>,
 }
 
 /// The quantity that a column gives for an impact or its rebound.
@@ -182,17 +164,13 @@ enum Said {
 }
 
 impl Said {
-    fn dimension(self) -> [i32; 3] {
+    /// Returns its dimension, and the power of the number to which the speed is proportional.
+    fn row(self) -> ([i32; 3], f64) {
         match self {
-            Self::Speed => SPEED,
-            Self::Height => LENGTH,
-            Self::Restitution => NUMBER,
+            Self::Speed => ([1, 0, -1], 1.0),
+            Self::Height => ([1, 0, 0], 0.5),
+            Self::Restitution => ([0; 3], 1.0),
         }
-    }
-
-    /// Returns the power of the number to which the speed is proportional.
-    fn power(self) -> f64 {
-        if self == Self::Height { 0.5 } else { 1.0 }
     }
 
     /// Returns the speed at a height, m/s, or the number itself.
@@ -205,7 +183,8 @@ impl Said {
 }
 
 /// The columns of a table that are read.
-struct Columns {
+struct Columns<'a> {
+    table: &'a Table,
     /// Speeds whose sum is the approach speed, or a height.
     speeds: Vec<usize>,
     /// The quantity that they are.
@@ -226,80 +205,70 @@ struct Columns {
     accepted: Option<usize>,
 }
 
-/// Returns the columns of impacts that were repeated, `e1, e2`, if there are any.
-fn repeats(table: &Table, names: &[&str], said: Said) -> Option<(Vec<usize>, Said)> {
-    let is_repeat = |column: &usize| is_numbered(&table.header()[*column], names);
-    let found: Vec<usize> = (0..table.header().len()).filter(is_repeat).collect();
-    (!found.is_empty()).then_some((found, said))
-}
-
-impl Columns {
-    pub fn of(table: &Table, scene: &Scene, wanted: Wanted<'_>) -> Result<Self, DataError> {
+impl<'a> Columns<'a> {
+    fn of(table: &'a Table, scene: &Scene, wanted: Wanted<'_>) -> Result<Self, DataError> {
         let swept = [0, 1].map(|body| {
             let name = format!("body.{body}.approach_speed");
             table.header().iter().position(|header| *header == name)
         });
         let own = [scene.bodies()[0].velocity(), -scene.bodies()[1].velocity()];
-        let height = |names: [&[&str]; 2], other: Option<usize>| {
+        let height = |names: [&str; 2], other: Option<usize>| {
             let found = names.map(|names| table.find(names));
             let found = found.into_iter().find(|it| !matches!(it, Ok(None))).unwrap_or(Ok(None));
             found.map(|found| found.filter(|column| Some(*column) != other))
         };
-        let mut approach = Said::Speed;
-        let (speeds, other_speed) = if swept == [None, None] {
-            let column = match (table.find(&SPEEDS)?, height(DROP_HEIGHTS, None)?) {
-                (Some(speed), _) => speed,
-                (None, Some(height)) => {
-                    approach = Said::Height;
-                    height
-                }
-                (None, None) => table.require(&SPEEDS, "speed_m_s, or speed_cm_s")?,
-            };
-            (vec![column], 0.0)
+        let (speeds, approach) = if swept == [None, None] {
+            match (table.find(SPEEDS)?, height(DROP_HEIGHTS, None)?) {
+                (None, Some(height)) => (vec![height], Said::Height),
+                _ => (vec![table.require(SPEEDS, "speed_m_s, or speed_cm_s")?], Said::Speed),
+            }
         } else {
-            let fixed = swept.iter().zip(own).filter(|(column, _)| column.is_none());
-            (swept.into_iter().flatten().collect(), fixed.map(|(_, speed)| speed).sum())
+            (swept.into_iter().flatten().collect(), Said::Speed)
         };
+        let fixed = swept.iter().zip(own).filter(|(it, _)| swept != [None, None] && it.is_none());
+        let other_speed = fixed.map(|(_, speed)| speed).sum();
+        let repeats = |names: &str| -> Vec<usize> {
+            let is_repeat = |column: &usize| is_numbered(&table.header()[*column], names);
+            (0..table.header().len()).filter(is_repeat).collect()
+        };
+        let one = |column: Option<usize>| column.into_iter().collect::<Vec<_>>();
         let after = [
-            (table.find(&RESTITUTIONS)?, Said::Restitution),
-            (table.find(&REBOUND_SPEEDS)?, Said::Speed),
-            (height(REBOUND_HEIGHTS, speeds.first().copied())?, Said::Height),
+            (one(table.find(RESTITUTIONS)?), Said::Restitution),
+            (one(table.find(REBOUND_SPEEDS)?), Said::Speed),
+            (one(height(REBOUND_HEIGHTS, speeds.first().copied())?), Said::Height),
+            (repeats(RESTITUTIONS), Said::Restitution),
+            (repeats(REBOUND_HEIGHTS[0]), Said::Height),
         ];
-        let after = after.into_iter().find_map(|(column, said)| Some((vec![column?], said)));
-        let after = after
-            .or_else(|| repeats(table, &RESTITUTIONS, Said::Restitution))
-            .or_else(|| repeats(table, REBOUND_HEIGHTS[0], Said::Height));
-        let (restitutions, rebound) = match after {
+        let (restitutions, rebound) = match after.into_iter().find(|it| !it.0.is_empty()) {
             Some(found) => found,
-            None => (vec![table.require(&RESTITUTIONS, "restitution")?], Said::Restitution),
+            None => (vec![table.require(RESTITUTIONS, "restitution")?], Said::Restitution),
         };
-        check_same_bodies(table, &[&speeds[..], wanted.others].concat())?;
+        check_same_bodies(table, &[&speeds[..], wanted.diameters.unwrap_or(&[])].concat())?;
+        let contact_time = if wanted.contact_times { table.find(CONTACT_TIMES)? } else { None };
         Ok(Self {
+            table,
             speeds,
             other_speed,
             approach,
             restitutions,
             rebound,
             uncertainty: table.find(uncertainties())?,
-            contact_time: match wanted.contact_times {
-                true => table.find(&CONTACT_TIMES)?,
-                false => None,
-            },
-            complete: table.find(&["complete"])?,
-            status: table.find(&[STATUS])?,
-            accepted: table.find(&[ACCEPTED_STATUS])?,
+            contact_time,
+            complete: table.find("complete")?,
+            status: table.find(STATUS)?,
+            accepted: table.find(ACCEPTED_STATUS)?,
         })
     }
 
     /// Returns what follows from the kinds of columns.
-    pub fn notes(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         let has_height = [self.approach, self.rebound].contains(&Said::Height);
         let note =
             "speeds follow from heights, sqrt(2 g h) with 9.80665 m/s²: air drag is left out";
         has_height.then(|| note.to_string()).into_iter().collect()
     }
 
-    pub fn read(&self) -> Vec<usize> {
+    fn read(&self) -> Vec<usize> {
         let Self { uncertainty, contact_time, complete, status, accepted, .. } = *self;
         let optional = [uncertainty, contact_time, complete, status, accepted];
         let required = self.speeds.iter().chain(&self.restitutions).copied();
@@ -307,21 +276,26 @@ impl Columns {
     }
 
     /// Whether a row has a result: a sweep has rows of failed members, a measurement rows without a speed or a restitution.
-    pub fn has_result(&self, table: &Table, row: usize, restitution: usize) -> bool {
+    fn has_result(&self, row: usize, restitution: usize) -> bool {
+        let table = self.table;
         // A first cell that is no number may be the unit of the column: it is an error.
-        if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed, self.approach)) {
+        let is_text = |column: &usize| {
+            !table.is_missing(0, *column)
+                && table.number(0, *column, self.approach.row().0).is_err()
+        };
+        if row == 0 && self.speeds.iter().any(is_text) {
             return true;
         }
-        let is_complete = |complete: usize| table.text(row, complete) != "false";
-        self.complete.is_none_or(is_complete)
+        self.complete.is_none_or(|complete| table.text(row, complete) != "false")
             && !table.is_missing(row, restitution)
             && !self.speeds.iter().any(|speed| table.is_missing(row, *speed))
     }
 
-    pub fn point(&self, table: &Table, row: usize, column: usize) -> Result<Point, DataError> {
+    fn point(&self, row: usize, column: usize) -> Result<Point, DataError> {
+        let table = self.table;
         let mut speed = self.other_speed;
         for speeds in &self.speeds {
-            let value = table.number(row, *speeds, self.approach.dimension())?;
+            let value = table.number(row, *speeds, self.approach.row().0)?;
             if self.approach == Said::Height && value <= 0.0 {
                 let help = "a height of a drop is greater than 0";
                 return Err(table.cell_fault(row, *speeds, value, help));
@@ -333,7 +307,7 @@ impl Columns {
                 .fault(row, format!("the approach speed is {} m/s", number(speed, 5)))
                 .with_help("it must be greater than 0"));
         }
-        let rebound = table.number(row, column, self.rebound.dimension())?;
+        let rebound = table.number(row, column, self.rebound.row().0)?;
         let restitution = match self.rebound {
             Said::Restitution => rebound,
             // A speed after the impact may have the opposite sign.
@@ -349,7 +323,7 @@ impl Columns {
                      restitution_percent for per cents",
                 ));
         }
-        if self.status.is_some_and(|status| is_bound(table, row, status)) {
+        if self.is_bound(row, self.status) {
             let message = format!(
                 "the restitution {} is an upper bound, and no number for a law",
                 number(restitution, 5)
@@ -360,20 +334,24 @@ impl Columns {
             ));
         }
         let restitution_uncertainty = match self.uncertainty {
-            Some(own) => uncertainty(table, row, own)?,
-            None => self.derived_uncertainty(table, row, column, restitution)?,
+            Some(own) => positive(table, row, own, [0; 3])?,
+            None => self.derived_uncertainty(row, column, restitution)?,
         };
-        let contact_time = match self.contact_time {
-            Some(column) => positive(table, row, column, TIME)?,
-            None => None,
-        };
+        if let Some((own, found)) = self.uncertainty.zip(restitution_uncertainty)
+            && found > MAX_UNCERTAINTY
+        {
+            let help = "the uncertainty of a restitution is at most 1; name the column \
+                        restitution_uncertainty_percent for per cents";
+            return Err(table.cell_fault(row, own, found, help));
+        }
+        let contact_time = self.contact_time.map(|own| positive(table, row, own, [0, 0, 1]));
+        let contact_time = contact_time.transpose()?.flatten();
         Ok(Point { speed, restitution, restitution_uncertainty, contact_time })
     }
 
     /// Returns the standard uncertainty of a restitution that follows from heights or speeds with uncertainties.
     fn derived_uncertainty(
         &self,
-        table: &Table,
         row: usize,
         column: usize,
         restitution: f64,
@@ -381,30 +359,26 @@ impl Columns {
         if self.rebound == Said::Restitution {
             return Ok(None);
         }
+        let table = self.table;
         let mut relative = None;
         let approach = self.speeds.iter().map(|column| (*column, self.approach));
         for (column, said) in approach.chain([(column, self.rebound)]) {
+            let (dimension, power) = said.row();
             let Some(own) = table.position(&uncertainty_of(&table.header()[column])) else {
                 continue;
             };
-            if let Some(found) = positive(table, row, own, said.dimension())? {
-                let value = table.number(row, column, said.dimension())?;
-                let share = said.power() * found / value.abs();
+            if let Some(found) = positive(table, row, own, dimension)? {
+                let share = power * found / table.number(row, column, dimension)?.abs();
                 relative = Some(share.hypot(relative.unwrap_or(0.0)));
             }
         }
         Ok(relative.map(|relative: f64| relative * restitution))
     }
-}
 
-/// Returns whether a cell of a column of statuses says that the restitution is a bound.
-fn is_bound(table: &Table, row: usize, status: usize) -> bool {
-    table.text(row, status) == Status::Bound.word()
-}
-
-/// Whether the first cell of a column of speeds has a text that is no speed.
-fn is_text(table: &Table, column: usize, said: Said) -> bool {
-    !table.is_missing(0, column) && table.number(0, column, said.dimension()).is_err()
+    /// Returns whether a column of statuses says that the restitution of a row is a bound.
+    fn is_bound(&self, row: usize, status: Option<usize>) -> bool {
+        status.is_some_and(|status| self.table.text(row, status) == Status::Bound.word())
+    }
 }
 
 /// Rejects a sweep that varies columns other than `may_vary`.
@@ -431,16 +405,6 @@ fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError>
     Ok(())
 }
 
-fn uncertainty(table: &Table, row: usize, column: usize) -> Result<Option<f64>, DataError> {
-    let found = positive(table, row, column, NUMBER)?;
-    let help = "the uncertainty of a restitution is at most 1; name the column \
-                restitution_uncertainty_percent for per cents";
-    match found {
-        Some(found) if found > MAX_UNCERTAINTY => Err(table.cell_fault(row, column, found, help)),
-        found => Ok(found),
-    }
-}
-
 /// Returns the positive number of a cell; `None` for a cell without a value.
 fn positive(
     table: &Table,
@@ -459,8 +423,6 @@ fn positive(
     Ok(Some(value))
 }
 
-const SIDES: [&str; 2] = ["first", "second"];
-
 impl MeasuredPairs {
     /// Reads a table as [`Restitutions::read`] does; columns like `diameter_1_mm` and
     /// `diameter_2_mm` distinguish several pairs. The scene shows which body is a wall.
@@ -468,44 +430,28 @@ impl MeasuredPairs {
     /// # Errors
     /// The table has an error; the first one is returned.
     pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
-        let columns = diameter_columns(table, scene)?;
+        let columns = [table.find(DIAMETERS[0])?, table.find(DIAMETERS[1])?];
+        for ((column, body), side) in columns.iter().zip(scene.bodies()).zip(["first", "second"]) {
+            if let (Some(column), None) = (column, body.diameter()) {
+                let (header, name) = (&table.header()[*column], &body.name());
+                let message =
+                    format!("{header} belongs to the {side} body, and \"{name}\" is a wall");
+                let error = table.header_fault(message).in_column(header);
+                return Err(error.with_help("leave the column out, or take a case of two spheres"));
+            }
+        }
         let others: Vec<usize> = columns.iter().flatten().copied().collect();
-        let names = DIAMETERS.map(|[name, _]| name);
-        let wanted = Wanted { others: &others, names: &names, ..Wanted::default() };
+        let wanted = Wanted { diameters: Some(&others), contact_times: false };
         let (data, rows) = read_rows(table, scene, wanted)?;
-        let diameters = rows.iter().map(|row| diameters(table, *row, columns));
-        let diameters: Vec<[Option<f64>; 2]> = diameters.collect::<Result<_, _>>()?;
+        let diameter = |row: usize, column: usize| match table.number(row, column, [1, 0, 0])? {
+            value if value > 0.0 => Ok(value),
+            value => Err(table.cell_fault(row, column, value, "it must be greater than 0")),
+        };
+        let mut diameters = Vec::with_capacity(rows.len());
+        for row in rows {
+            let [first, second] = columns.map(|it| it.map(|column| diameter(row, column)));
+            diameters.push([first.transpose()?, second.transpose()?]);
+        }
         Ok(Self::sorted(data, |point| diameters[point]))
     }
-}
-
-fn diameter_columns(table: &Table, scene: &Scene) -> Result<[Option<usize>; 2], DataError> {
-    let [first, second] = DIAMETERS;
-    let columns = [table.find(&first)?, table.find(&second)?];
-    for ((column, body), side) in columns.iter().zip(scene.bodies()).zip(SIDES) {
-        if let (Some(column), None) = (column, body.diameter()) {
-            let (header, name) = (&table.header()[*column], &body.name());
-            let message = format!("{header} belongs to the {side} body, and \"{name}\" is a wall");
-            let error = table.header_fault(message).in_column(header);
-            return Err(error.with_help("leave the column out, or take a case of two spheres"));
-        }
-    }
-    Ok(columns)
-}
-
-fn diameters(
-    table: &Table,
-    row: usize,
-    columns: [Option<usize>; 2],
-) -> Result<[Option<f64>; 2], DataError> {
-    let mut diameters = [None, None];
-    for (diameter, column) in diameters.iter_mut().zip(columns) {
-        let Some(column) = column else { continue };
-        let value = table.number(row, column, LENGTH)?;
-        if value <= 0.0 {
-            return Err(table.cell_fault(row, column, value, "it must be greater than 0"));
-        }
-        *diameter = Some(value);
-    }
-    Ok(diameters)
 }

@@ -11,22 +11,9 @@ use super::csv_table::Table;
 use super::data_error::DataError;
 
 /// Columns before the accounts of energy.
-const FIRST: [&str; 14] = [
-    "restitution",
-    "contact_time_s",
-    "peak_force_n",
-    "peak_force_raw_n",
-    "max_approach_m",
-    "max_contact_radius_m",
-    "peak_pressure_pa",
-    "contact_episodes",
-    "hertz_restitution",
-    "hertz_contact_time_s",
-    "hertz_peak_force_n",
-    "hertz_max_approach_m",
-    "hertz_max_contact_radius_m",
-    "hertz_peak_pressure_pa",
-];
+const FIRST: &str = "restitution contact_time_s peak_force_n peak_force_raw_n max_approach_m max_contact_radius_m \
+    peak_pressure_pa contact_episodes hertz_restitution hertz_contact_time_s hertz_peak_force_n hertz_max_approach_m \
+    hertz_max_contact_radius_m hertz_peak_pressure_pa";
 /// Quantities of oblique impacts.
 pub const TANGENTIAL: [&str; 5] = [
     "tangential_restitution",
@@ -36,25 +23,9 @@ pub const TANGENTIAL: [&str; 5] = [
     "psi_after",
 ];
 /// Columns after the accounts of energy.
-const LAST: [&str; 17] = [
-    "energy_residual_relative",
-    "dent_depth_m",
-    "dent_radius_m",
-    "dent_max_plastic_strain",
-    "adhesion_sticking_speed_m_s",
-    "adhesion_sticks",
-    "plate_lambda",
-    "plate_regime",
-    "momentum_residual_relative",
-    "elements",
-    "time_step_s",
-    "steps",
-    "element_updates",
-    "radius_and_pressure",
-    "complete",
-    "stopped_because",
-    "warnings",
-];
+const LAST: &str = "energy_residual_relative dent_depth_m dent_radius_m dent_max_plastic_strain adhesion_sticking_speed_m_s \
+    adhesion_sticks plate_lambda plate_regime momentum_residual_relative elements time_step_s steps element_updates \
+    radius_and_pressure complete stopped_because warnings";
 
 /// Prefix of a column of the summary's `uncertainty`, and its part.
 pub const UNCERTAINTIES: [(&str, &str); 3] = [
@@ -69,22 +40,17 @@ pub const STATUS: &str = "_status";
 /// and `dent_` is the first of its dents. The cost of the run (`cost`) differs from run to run and stays in the member's
 /// summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
-    let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
+    let own = |names: &'static str| names.split(' ').map(ToString::to_string);
     let accounts = Account::all().map(|account| energy_column(&energy_key(account)));
     let energies = [energy_column("initial_j")].into_iter().chain(accounts);
     let energies = energies.chain(["locked_in_j", "residual_j"].map(energy_column));
-    let parts = |quantity: QuantityOfInterest| {
-        UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()))
-    };
-    let status = QuantityOfInterest::ALL.into_iter().map(|it| format!("{}{STATUS}", it.key()));
-    let uncertainties = QuantityOfInterest::ALL.into_iter().flat_map(parts);
-    let across = own(&TANGENTIAL).chain(
-        TANGENTIAL[..3]
-            .iter()
-            .flat_map(|key| UNCERTAINTIES.map(|(start, _)| format!("{start}{key}"))),
-    );
-    let all = own(&FIRST).chain(status).chain(uncertainties).chain(energies);
-    all.chain(own(&LAST)).chain(across).collect()
+    let keys = || QuantityOfInterest::ALL.into_iter().map(QuantityOfInterest::key);
+    let status = keys().map(|key| format!("{key}{STATUS}"));
+    let parts = |key: &'static str| UNCERTAINTIES.map(|(start, _)| format!("{start}{key}"));
+    let across = TANGENTIAL.iter().map(ToString::to_string);
+    let across = across.chain(TANGENTIAL.into_iter().take(3).flat_map(parts));
+    let all = own(FIRST).chain(status).chain(keys().flat_map(parts)).chain(energies);
+    all.chain(own(LAST)).chain(across).collect()
 });
 
 /// Returns the column of a key of the summary's energies.

@@ -8,7 +8,7 @@
 //!
 //! The logarithm is of the present contact, inside which all earlier load lies in loading.
 
-use crate::numerics::functions::ln;
+use crate::numerics::ln;
 
 /// α − β ln u.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -34,7 +34,7 @@ use crate::error::LawError;
 use crate::finite_size::coefficient::Coefficient;
 use crate::finite_size::correction::{Correction, RelaxingCorrection};
 use crate::finite_size::sphere_compliance::{Parts, SphereCompliance};
-use crate::numerics::functions::ln;
+use crate::numerics::ln;
 use crate::pair_relaxation::PairRelaxation;
 
 /// The finite size of up to two spheres.

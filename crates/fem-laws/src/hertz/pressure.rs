@@ -69,9 +69,4 @@ impl HertzPressure {
             radial: -self.peak_pressure * ((1.0 + poissons_ratio) * spread - 0.5 * axial),
         }
     }
-
-    /// Returns the largest tension, Pa: σ_rr = (1−2ν)p₀/3 on the surface at r = a.
-    pub fn rim_tension(&self, poissons_ratio: f64) -> f64 {
-        (1.0 - 2.0 * poissons_ratio) / 3.0 * self.peak_pressure
-    }
 }

@@ -90,8 +90,11 @@ mod tests {
                 let sum = -(1.0 + 2.0 * nu) * UNIT.pressure(r);
                 assert!((rr + tt - sum).abs() < 1e-12, "{r}: {rr} {tt}");
             }
-            let rim = UNIT.stress(1.0, 0.0, nu)[0];
-            assert!((rim - UNIT.rim_tension(nu)).abs() < 1e-12);
+            // Boussinesq's point force has σ_rr = (1−2ν)F/2πr² on the surface, and so has all that is outside of the contact.
+            for r in [1.0, 3.0] {
+                let point = (1.0 - 2.0 * nu) * UNIT.force() / (2.0 * PI * r * r);
+                assert!((UNIT.stress(r, 0.0, nu)[0] - point).abs() < 1e-12);
+            }
         }
         let scaled = HertzPressure { contact_radius: 2e-3, peak_pressure: 3e9 };
         let (one, other) = (scaled.stress(1e-3, 0.6e-3, 0.3), UNIT.stress(0.5, 0.3, 0.3));

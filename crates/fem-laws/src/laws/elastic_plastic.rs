@@ -223,6 +223,19 @@ impl ContactLaw {
         }
     }
 
+    /// Returns the force of a first loading to an approach > 0, m, and the length (m) and the exponent of the rebound from there, in
+    /// which the force is a power of the height above the dent; `None` for a law that does not dent.
+    pub fn indentation(&self, approach: f64) -> Option<[f64; 3]> {
+        let rebound =
+            self.rebound(self.elastic_plastic()?, approach, self.loading_work(0.0, approach));
+        Some([rebound.force, rebound.length, rebound.exponent])
+    }
+
+    /// Returns the approach at which a law that dents first yields, m; `None` for another law, and infinite where it dents at once.
+    pub fn first_yield(&self) -> Option<f64> {
+        Some(self.elastic_plastic()?.yield_approach())
+    }
+
     /// Returns the work of a first loading, J, from an approach ≥ 0 to a larger one, m, without a dashpot.
     pub(crate) fn loading_work(&self, from: f64, to: f64) -> f64 {
         let yields = self.elastic_plastic().map_or(f64::INFINITY, ElasticPlastic::yield_approach);

@@ -22,7 +22,9 @@ pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono
 pub use linear::{linear, linear_damping, linear_from_restitution, linear_values};
 pub(crate) use mean_pressure::REPRESENTATIVE_STRAIN;
 pub use power::{ContactLaw, EndRule, power};
-pub use published::{bordbar_hyppanen, falcon, hertz, mishra_murty, morgado_oppenheim};
+pub use published::{
+    bordbar_hyppanen, falcon, hertz, hertz_dashpot, mishra_murty, morgado_oppenheim,
+};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel, schwager_poeschel_values};
 pub use tsuji::{tsuji, tsuji_coefficient, tsuji_values, zhang_whiten_coefficient};
 
@@ -135,6 +137,15 @@ macro_rules! contact_laws {
             keys {
                 /// Damping, N s/m^(5/4), ≥ 0.
                 c: Number, NotNegative, Role::DAMPING.in_unit("N s/m^(5/4)");
+            }
+
+            /// Hertz' spring with a constant dashpot, c ξ̇.
+            HertzDashpot, hertz_dashpot, HertzDashpotTable, "a table such as { c = \"10 N s/m\" }";
+            formula(pair, [c]) = laws::hertz_dashpot(pair, c);
+            given by [c];
+            keys {
+                /// Damping, ≥ 0.
+                c: Damping, NotNegative, Role::DAMPING;
             }
 
             /// F = k ξ^(8/5) + c ξ^(4/5) ξ̇.

@@ -37,6 +37,19 @@ pub fn falcon(pair: &Pair, damping: f64) -> Result<ContactLaw, LawError> {
     power(hertz_stiffness(pair), 1.5, damping, 0.25)
 }
 
+/// Returns the law of a pair and a damping C, N s/m.
+///
+/// Hertz' spring with the constant dashpot C ξ̇: `damping velocity` of LAMMPS.
+///
+/// The dissipated share falls with speed as v^(−1/5), that of a Maxwell solid whose contact is over before it relaxes: its share is as
+/// the contact time. Limits: a force jumps to C v at first touch; C belongs to one pair of sizes.
+///
+/// # Errors
+/// C negative or not finite.
+pub fn hertz_dashpot(pair: &Pair, damping: f64) -> Result<ContactLaw, LawError> {
+    power(hertz_stiffness(pair), 1.5, damping, 0.0)
+}
+
 /// Returns the law of a stiffness K, N/m^(8/5), and a damping C, N s/m^(9/5).
 ///
 /// The law F = K ξ^(8/5) + C ξ^(4/5) ξ̇.

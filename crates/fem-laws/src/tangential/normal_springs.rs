@@ -20,7 +20,7 @@ use fem_material::RelaxationStep;
 use crate::error::{LawError, positive};
 use crate::impact::{Impact, ImpactPath};
 use crate::laws::ContactLaw;
-use crate::numerics::functions::exp;
+use crate::numerics::exp;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 

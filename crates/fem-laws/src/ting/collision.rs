@@ -7,7 +7,7 @@ use crate::finite_size::FiniteSize;
 use crate::hertz::HertzImpact;
 use crate::impact::{AT_REST, Impact, ImpactInstant};
 use crate::numerics::bisection::last_where;
-use crate::numerics::functions::power;
+use crate::numerics::power;
 use crate::ting::Ting;
 use crate::ting::collocation::{Interpolation, N, POINTS, evaluate};
 use crate::ting::loading_record::{Contact, Record, peak};

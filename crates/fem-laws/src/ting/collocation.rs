@@ -10,7 +10,7 @@
 //!
 //! is exact for every ratio z of step to relaxation time, from elastic (z → 0) to viscous (z → ∞).
 
-use crate::numerics::functions::exp_m1;
+use crate::numerics::exp_m1;
 
 /// Gauss points, and coefficients, a step.
 pub(crate) const N: usize = 5;

@@ -5,7 +5,7 @@
 //! t₁, of √u the pressure on the axis.
 
 use crate::finite_size::correction::Correction;
-use crate::numerics::functions::exp;
+use crate::numerics::exp;
 use crate::plate::SINKING_LAMBDA;
 use crate::ting::collocation::dot;
 use crate::ting::collocation::{

@@ -58,7 +58,7 @@ use crate::finite_size::FiniteSize;
 use crate::finite_size::correction::RelaxingCorrection;
 use crate::hertz::HertzImpact;
 use crate::impact::Impact;
-use crate::numerics::functions::power;
+use crate::numerics::power;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 use crate::radiation::{radiation_damping, share_of_damping};

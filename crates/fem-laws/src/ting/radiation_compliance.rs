@@ -30,7 +30,7 @@
 //! Everything is dimensionless; see [`crate::ting`].
 
 use crate::finite_size::correction::Correction;
-use crate::numerics::functions::exp;
+use crate::numerics::exp;
 use crate::ting::collocation::{Interpolation, N, POINTS, Vector, derivative, dot, fading_moments};
 
 /// Times γ F′(u_max) that τ is at least.

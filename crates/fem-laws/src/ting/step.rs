@@ -6,7 +6,7 @@
 //! the relaxation.
 
 use crate::finite_size::correction::Correction;
-use crate::numerics::functions::exp;
+use crate::numerics::exp;
 use crate::ting::collocation::{
     Interpolation, N, POINTS, Vector, dot, double_integral_moments, fading_moments, finest_detail,
     integral_moments,

@@ -79,14 +79,3 @@ fn largest_shear_lies_below_the_surface() {
     assert!((zeta - 0.48).abs() <= 0.005, "{zeta}");
     assert!((shear(zeta) - 0.31).abs() <= 0.005);
 }
-
-/// σ_rr at the rim from equilibrium outside the contact: there σ_rr = −σ_θθ ∝ 1/r², and the
-/// far field is Boussinesq's (1−2ν)F/2πr² on the surface.
-#[test]
-fn rim_tension_continues_the_far_field() {
-    for nu in [-0.5, 0.0, 0.244, 0.5] {
-        let at_rim =
-            (1.0 - 2.0 * nu) * CONTACT.force() / (2.0 * PI * CONTACT.contact_radius.powi(2));
-        assert!((CONTACT.rim_tension(nu) - at_rim).abs() < 1e-15);
-    }
-}

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use fem_laws::laws::{
-    ContactLaw, bordbar_hyppanen, dissipation_time, falcon, hertz, hunt_crossley, kuwabara_kono,
-    linear, linear_damping, linear_from_restitution, mishra_murty, morgado_oppenheim, power,
-    schwager_poeschel, tsuji, tsuji_coefficient,
+    ContactLaw, bordbar_hyppanen, dissipation_time, falcon, hertz, hertz_dashpot, hunt_crossley,
+    kuwabara_kono, linear, linear_damping, linear_from_restitution, mishra_murty,
+    morgado_oppenheim, power, schwager_poeschel, tsuji, tsuji_coefficient,
 };
 use fem_laws::{
     EndRule, HertzImpact, Impact, ImpactQuantities, LawError, LawImpact, Pair, Partner,
@@ -169,6 +169,9 @@ fn loss_grows_with_the_power_of_the_damping_exponent() {
         // 1 − e has second-order terms of 1e-4 of itself, and errors of 1e-8/1e-4.
         assert!((exponent - (4.0 * n - 1.0) / 5.0).abs() < 1e-3, "n {n}: {exponent}");
     }
+    // A constant dashpot has n = 0.
+    let rise = |speed| 1.0 - impact(hertz_dashpot(&pair, 1e-2).unwrap(), speed).restitution;
+    assert!(((rise(2.0) / rise(0.5)).log(4.0) + 0.2).abs() < 1e-3, "{}", rise(2.0));
     let law = falcon(&pair, 500.0).unwrap();
     let slow = impact(law, 1e-6).restitution;
     assert!(slow < 0.95);

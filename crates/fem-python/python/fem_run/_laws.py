@@ -38,6 +38,7 @@ Law = Literal[
     "tsuji",
     "zhang_whiten",
     "falcon",
+    "hertz_dashpot",
     "mishra_murty",
     "schwager_poeschel",
     "morgado_oppenheim",
@@ -238,6 +239,7 @@ def export(
     speeds: tuple[Quantity, Quantity] | str | None = None,
     materials: str | Sequence[str] | None = None,
     diameters: Quantity | Sequence[Quantity] | None = None,
+    law: bool = False,
     tolerance: float | None = None,
     as_elastic: bool = False,
     columns: Columns | None = None,
@@ -254,6 +256,7 @@ def export(
             the fit.
         materials: names of materials for a table of all pairs, of the case or ``"lib:NAME"``.
         diameters: diameters of spheres for a table of all pairs.
+        law: whether the computed pair is written as a contact law in one C header, ``pair_case.h``.
         tolerance: largest error of the restitution at which a snippet counts as valid; by default 0.01 or, if that is
             larger, the scatter of the data.
         as_elastic: whether restitutions that are upper bounds are taken as they are.

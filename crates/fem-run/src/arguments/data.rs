@@ -3,7 +3,11 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use fem::measured::{DataError, Restitutions, Table, decode, is_of_library, library_table};
+use fem::fit::cradle::Measured;
+use fem::measured::{
+    DataError, Kind, NotMeasured, Restitutions, Table, decode, is_of_library, library_table,
+    parse_measured,
+};
 use fem::{case_identity, digest_of};
 use fem_case::Case;
 
@@ -111,6 +115,11 @@ impl ColumnArguments {
         };
         origin.with_options(&self.columns)
     }
+}
+
+/// Returns a parser of quantities of one kind, with or without an uncertainty.
+pub fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
+    move |text| parse_measured(kind, text)
 }
 
 /// Reads a file of data.

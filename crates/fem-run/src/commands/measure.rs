@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use fem::fit::cradle::Measured;
-use fem::measured::{Kind, NotMeasured, parse_measured};
+use fem::measured::Kind;
 use fem::records::{
     BounceTimes, ForceRecord, IMPACT_COLUMNS, Impact, Record, RecordKind, Rig,
     TimeUncertaintySource, Track,
@@ -14,7 +14,7 @@ use fem_report::record_figures::record_figure;
 use serde_json::Value;
 
 use crate::arguments::case::stem_of;
-use crate::arguments::data::{ColumnArguments, read_bytes};
+use crate::arguments::data::{ColumnArguments, of_kind, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
 use crate::result_folder::whole_file::OwnedFileKind;
@@ -92,10 +92,6 @@ struct RigArguments {
     /// Relative standard uncertainty of the calibration of the force, such as '1 %'
     #[arg(long, value_name = "SHARE", value_parser = parse_share)]
     force_uncertainty: Option<f64>,
-}
-
-fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
-    move |text| parse_measured(kind, text)
 }
 
 fn kinds() -> impl TypedValueParser<Value = RecordKind> {

@@ -10,7 +10,6 @@ pub mod new;
 pub mod relaxation;
 pub mod report;
 pub mod run;
-pub mod schema;
 pub mod shell;
 pub mod sweep;
 pub mod validate;
@@ -37,7 +36,7 @@ pub enum Command {
     Cradle(cradle::Arguments),
     Measure(measure::Arguments),
     Relaxation(relaxation::Arguments),
-    Schema(schema::Arguments),
+    Schema(shell::SchemaArguments),
     Report(report::ReportArguments),
     Plot(report::PlotArguments),
     Completions(shell::CompletionArguments),
@@ -62,7 +61,7 @@ impl Command {
             Self::Cradle(arguments) => cradle::execute(&arguments),
             Self::Measure(arguments) => measure::execute(&arguments),
             Self::Relaxation(arguments) => relaxation::execute(&arguments),
-            Self::Schema(arguments) => schema::execute(&arguments),
+            Self::Schema(arguments) => shell::schema(&arguments),
             Self::Report(arguments) => report::report(&arguments),
             Self::Plot(arguments) => report::plot(&arguments),
             Self::Completions(arguments) => shell::complete(&arguments, whole()),

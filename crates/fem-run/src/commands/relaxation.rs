@@ -4,15 +4,15 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use fem::fit::cradle::Measured;
-use fem::measured::{Kind, Modulus, ModulusTable, NotMeasured, TestKind, decode, parse_measured};
+use fem::measured::{Kind, Modulus, ModulusTable, TestKind, decode};
 use fem::relaxation::{Block, FoundRelaxation, RelaxationSettings};
-use fem::{ShiftLaw, ZERO_CELSIUS};
+use fem::{GAS_CONSTANT, ShiftLaw, ZERO_CELSIUS};
 use fem_case::engineering::{Unit, show};
 use fem_report::relaxation_figure::relaxation_figure;
 use serde_json::Value;
 
 use crate::arguments::case::stem_of;
-use crate::arguments::data::{ColumnArguments, read_bytes};
+use crate::arguments::data::{ColumnArguments, of_kind, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
 use crate::result_folder::whole_file::OwnedFileKind;
@@ -68,10 +68,6 @@ pub struct Arguments {
     columns: ColumnArguments,
     #[command(flatten)]
     output: OutputArguments,
-}
-
-fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
-    move |text| parse_measured(kind, text)
 }
 
 fn moduli() -> impl TypedValueParser<Value = Modulus> {
@@ -218,7 +214,7 @@ fn shifts(found: &FoundRelaxation, most: usize) -> String {
                 format!("WLF: C1 = {}, C2 = {}", measured(*c1, u[0], ""), measured(*c2, u[1], "K"))
             }
             ShiftLaw::Arrhenius { activation_temperature } => {
-                let energy = |kelvin: f64| 8.314_462_618e-3 * kelvin;
+                let energy = |kelvin: f64| 1e-3 * GAS_CONSTANT * kelvin;
                 let energy = measured(energy(*activation_temperature), energy(u[0]), "kJ/mol");
                 format!("Arrhenius: activation energy {energy}")
             }

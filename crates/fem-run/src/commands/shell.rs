@@ -1,8 +1,9 @@
-//! `fem-run completions SHELL` and `fem-run man`.
+//! `fem-run completions SHELL`, `fem-run man` and `fem-run schema`.
 
 use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
+use fem_case::{CASE_SCHEMA, SWEEP_SCHEMA};
 
 use crate::text::{Failure, standard_output};
 
@@ -49,4 +50,32 @@ pub fn man(arguments: &ManArguments, mut whole: Command) -> Result<(), Failure> 
         .render(&mut text)
         .map_err(|error| Failure::failed(format!("the manual page: {error}")))?;
     standard_output::print(&String::from_utf8_lossy(&text))
+}
+
+/// Print the JSON schema of case files or of sweep files
+///
+/// Editors with TOML support (Even Better TOML, Taplo, Zed, Helix) use it to complete and check keys: save
+/// it as fem-run.schema.json and begin a case with the line #:schema ./fem-run.schema.json, as fem-run new
+/// does. The schema covers keys, types, words, units and ranges; fem-run check also checks how keys depend
+/// on each other.
+#[derive(clap::Args, Debug)]
+pub struct SchemaArguments {
+    /// The kind of file
+    #[arg(value_enum, default_value_t = Of::Case)]
+    of: Of,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Of {
+    /// Schema of case files
+    Case,
+    /// Schema of sweep files
+    Sweep,
+}
+
+pub fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
+    standard_output::print(match arguments.of {
+        Of::Case => CASE_SCHEMA,
+        Of::Sweep => SWEEP_SCHEMA,
+    })
 }

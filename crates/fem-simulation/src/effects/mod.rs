@@ -17,8 +17,9 @@ mod material;
 mod numerics;
 pub(crate) mod ting_prediction;
 
-use fem_case::{ModelChoice, Scene, Switch};
+use fem_case::{ModelChoice, Scene, Shape, Switch};
 use fem_collision::Collision;
+use fem_material::Material;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
@@ -208,6 +209,15 @@ pub fn computed_flow(scene: &Scene, speed: f64) -> Option<FlowingImpact> {
     PlasticFlow::is_on(scene, &estimate)
         .then(|| mean_pressure_impact(scene, &estimate.hertz))
         .flatten()
+}
+
+/// Returns the materials of half-spaces that radiate waves in a collision at a speed, m/s, in a model that has these waves.
+pub fn radiating_half_spaces(scene: &Scene, speed: f64) -> Vec<Material> {
+    let Ok(estimate) = Estimate::at(scene, speed) else { return Vec::new() };
+    let radiating = PartnerWaves::radiating(scene, &estimate).into_iter().zip(scene.bodies());
+    let of_half_space =
+        radiating.filter(|(_, body)| matches!(body.shape(), Shape::HalfSpace { .. }));
+    of_half_space.filter_map(|(material, _)| material).collect()
 }
 
 /// Returns the restitution at a speed (m/s) beside adhesion, if the case gives it, from that without; 0 if the bodies stick.

@@ -71,7 +71,7 @@ impl KnownImpacts {
 const MAX_ROUNDING: f64 = 1e-9;
 
 /// Returns whether the surfaces slip on each other, at any speed, in a model that has surface slip.
-pub(crate) fn surfaces_slip(scene: &Scene) -> bool {
+pub fn surfaces_slip(scene: &Scene) -> bool {
     match scene.effects().surface_slip {
         Some(Switch::On) => !has_wall(scene),
         Some(Switch::Off) => false,

@@ -107,7 +107,7 @@ impl ObliqueResponse {
         velocity: f64,
         restitution: Option<f64>,
     ) -> Option<ObliqueRebound> {
-        let bodies = self.bodies.rubbing(friction);
+        let bodies = self.bodies.with_friction(friction);
         let before = bodies.patch_velocity(velocity);
         let impact = bodies.contact().impact(&self.springs, before);
         let errors = bodies.errors(self.speed, &self.springs, &impact, before);

@@ -83,6 +83,7 @@ fn every_model_and_law_is_read() {
         ("tsuji = { e = 0.9 }", "Tsuji e=9e-1"),
         ("zhang_whiten = { alpha = 0.1 }", "ZhangWhiten alpha=1e-1"),
         ("falcon = { c = 500 }", "Falcon c=5e2"),
+        ("hertz_dashpot = { c = '8 N s/m' }", "HertzDashpot c=8e0"),
         ("mishra_murty = { k = 1e10, c = 1 }", "MishraMurty k=1e10 c=1e0"),
         ("schwager_poeschel = { a = 1e-6 }", "SchwagerPoeschel a=1e-6"),
         (

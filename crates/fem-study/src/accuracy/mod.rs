@@ -8,7 +8,6 @@
 mod convergence;
 mod measurement;
 mod series;
-mod stress_samples;
 mod study;
 mod variants;
 

@@ -6,8 +6,8 @@ use fem_simulation::tolerance_of;
 
 use super::convergence::{Convergence, Limit, ObservedOrder};
 use super::measurement::Measurement;
+use super::measurement::relative_difference;
 use super::series::Series;
-use super::stress_samples::relative_difference;
 use super::variants::{Variant, Variants};
 
 /// Fewest elements across the contact of levels that are used for orders and limits.

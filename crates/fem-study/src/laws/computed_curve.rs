@@ -5,15 +5,22 @@ use std::mem::discriminant;
 use fem_case::engineering::show;
 use fem_case::schema::{HertzTable, ModelTable, TingTable};
 use fem_case::{Body, Case, ModelChoice, Scene, WorkOfAdhesion};
+use fem_data::dem::PatchRebound;
 use fem_data::estimate::Point;
 use fem_laws::{Adhesion, LawFamily};
 use fem_simulation::{
-    FlowingImpact, Reduced, bounds_of_closed_forms, computed_flow, restitution_with_adhesion,
+    ContactPatch, FlowingImpact, Reduced, bounds_of_closed_forms, computed_flow,
+    restitution_with_adhesion,
 };
 
 use super::chosen_law::plate_of;
 use super::impact_curve::{ImpactCurve, speeds_between};
 use super::law_fault::LawFault;
+
+/// Impact angles at which the rebound of the patch is computed.
+const N_ANGLES: usize = 20;
+/// Largest tan θ/μ of them; beyond about 7 (1 + e)/2 the surfaces slide throughout.
+const WIDEST_ANGLE: f64 = 9.0;
 
 impl ImpactCurve {
     /// Computes the curve with the case's contact law or, in place of any other model, with the mean-pressure law where bodies flow
@@ -229,22 +236,48 @@ fn sticks(scene: &Scene, speeds: &str) -> LawFault {
 /// finite thickness, unless the contact is too wide for that.
 fn reduced(case: &Case) -> Result<Reduced, LawFault> {
     let of = |case: &Case| Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case));
-    let scene = case.scene();
-    if !matches!(scene.model(), ModelChoice::Fem | ModelChoice::Condensed(_) | ModelChoice::Auto) {
+    if !has_elements(case) {
         return Ok(of(case)?);
     }
-    let has_plate = plate_of(scene)?.is_some();
-    let stand_in = |is_sized: bool| {
-        let finite_size = Some(is_sized);
-        let (ting, hertz) = match relaxes(scene) {
-            true => (Some(TingTable { finite_size, ..TingTable::default() }), None),
-            false => (None, Some(HertzTable { finite_size })),
-        };
-        let model = ModelTable { ting, hertz, ..ModelTable::default() };
-        of(&case.edited(|file| file.model = Some(model))?)
-    };
-    match has_plate.then(|| stand_in(true)) {
+    let has_plate = plate_of(case.scene())?.is_some();
+    match has_plate.then(|| of(&stand_in(case, true)?).map_err(LawFault::from)) {
         Some(Ok(sized)) => Ok(sized),
-        _ => Ok(stand_in(false)?),
+        _ => Ok(of(&stand_in(case, false)?)?),
     }
+}
+
+/// Returns whether a case asks for a model with elements, or for any.
+fn has_elements(case: &Case) -> bool {
+    use ModelChoice::{Auto, Condensed, Fem};
+    matches!(case.scene().model(), Fem | Condensed(_) | Auto)
+}
+
+/// Returns a case with Ting's model if a body relaxes and Hertz' otherwise, with or without finite size.
+fn stand_in(case: &Case, is_sized: bool) -> Result<Case, LawFault> {
+    let finite_size = Some(is_sized);
+    let (ting, hertz) = match relaxes(case.scene()) {
+        true => (Some(TingTable { finite_size, ..TingTable::default() }), None),
+        false => (None, Some(HertzTable { finite_size })),
+    };
+    let model = ModelTable { ting, hertz, ..ModelTable::default() };
+    Ok(case.edited(|file| file.model = Some(model))?)
+}
+
+/// Computes how the patch of an oblique impact rebounds over the angle, at the approach speed of a case with friction: of spheres of a
+/// finite size, unless the contact is too wide for that.
+pub(super) fn patch_rebound(case: &Case) -> Result<PatchRebound, LawFault> {
+    let of = |case: &Case| -> Result<ContactPatch, LawFault> {
+        Ok(ContactPatch::of(case.scene()).map_err(|refusal| refusal.in_case(case))?)
+    };
+    let patch = match has_elements(case) {
+        true => of(&stand_in(case, true)?).or_else(|_| of(&stand_in(case, false)?))?,
+        false => of(case)?,
+    };
+    let (friction, speed) = (case.scene().friction(), case.scene().approach_speed());
+    let scale = friction * speed;
+    let before: Vec<f64> =
+        (1..=N_ANGLES).map(|k| WIDEST_ANGLE * k as f64 / N_ANGLES as f64).collect();
+    let after = before.iter().map(|x| patch.velocity_after(scale * x) / scale).collect();
+    let (modulus, mass_ratio) = (patch.modulus(), patch.mass_ratio());
+    Ok(PatchRebound { friction, modulus, mass_ratio, speed, before, after })
 }

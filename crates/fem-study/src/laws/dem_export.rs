@@ -1,16 +1,21 @@
 //! The laws of DEM codes that fit e(v) and T(v), and their ranges of validity.
 
+use std::collections::BTreeMap;
+
 use fem_case::schema::BodyTable;
 use fem_case::{Body, Case, Scene};
 use fem_data::dem::{
-    DentingSprings, Export, HuntCrossley, Sphere, fit_dissipation, fit_springs, restitution_of,
+    self, Export, Friction, FrictionLaw, LawOfSpeed, Sphere, fit_dissipation, fit_springs,
+    restitution_of,
 };
 use fem_data::estimate::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily, MIN_RESTITUTION};
 
 use super::chosen_law::{ChosenLaw, model_of};
+use super::computed_curve::patch_rebound;
 use super::impact_curve::ImpactCurve;
+use super::law_fault::LawFault;
 use fem_data::estimate::CONFIDENCE;
 
 /// Restitutions nearer to 1 do not determine a law.
@@ -23,16 +28,14 @@ pub struct DemExport {
     pub curve: ImpactCurve,
     /// The content of the snippets.
     pub export: Export,
-    /// The law with one e at all speeds on Hertz' spring, the viscoelastic law, the linear law and, for bodies that dent,
-    /// Luding's springs and LAMMPS' `mdr`.
+    /// The law with one e at all speeds on Hertz' spring and the linear one; the viscoelastic law and the constant dashpot; and, for
+    /// bodies that dent, Luding's springs and LAMMPS' `mdr`.
     pub laws: Vec<FittedLaw>,
 }
 
 /// A law and the values of its parameters.
 #[derive(Clone, Debug)]
 pub struct FittedLaw {
-    /// The name of the law as text.
-    pub name: &'static str,
     /// The bodies under it.
     pub model: Model,
     /// Values of its parameters, SI.
@@ -42,6 +45,30 @@ pub struct FittedLaw {
 }
 
 impl FittedLaw {
+    /// Returns a law with its validity.
+    fn judged(
+        model: Model,
+        values: Vec<f64>,
+        curve: &ImpactCurve,
+        tolerance: f64,
+    ) -> Result<Self, FitError> {
+        let made = |speed: f64| Ok(model.outcome(&values, speed)?.restitution);
+        let validity = curve.validity(tolerance, made)?;
+        Ok(Self { model, values, validity })
+    }
+
+    /// Returns the law's name as text.
+    pub fn name(&self) -> &'static str {
+        match self.model.family() {
+            LawFamily::Tsuji => "one e for all speeds, Hertz",
+            LawFamily::KuwabaraKono => "viscoelastic (Kuwabara-Kono)",
+            LawFamily::HertzDashpot => "constant dashpot",
+            LawFamily::Luding => "springs that dent (Luding)",
+            LawFamily::Mdr => "mdr of LAMMPS",
+            family => family.name(),
+        }
+    }
+
     /// Returns restitution and contact time at a speed, m/s.
     pub fn outcome(&self, speed: f64) -> Option<Outcome> {
         self.model.outcome(&self.values, speed).ok()
@@ -53,8 +80,8 @@ impl DemExport {
     /// one of the laws. Without any loss all dashpots are 0.
     ///
     /// # Errors
-    /// The data do not determine a law.
-    pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
+    /// The data do not determine a law, or friction is not computed in the case.
+    pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, LawFault> {
         let plate = case.scene().bodies().iter().position(|body| body.plate().is_some());
         let on_block = plate.map(|side| case.scene().with_half_space(side));
         let scene = on_block.as_ref().unwrap_or(case.scene());
@@ -62,14 +89,13 @@ impl DemExport {
         // The mean is the best constant e.
         let e = curve.points.iter().map(|point| point.restitution).sum::<f64>() / n;
         if e < MIN_RESTITUTION {
-            return Err(FitError::Insensitive { key: "alpha" });
+            return Err(FitError::Insensitive { key: "alpha" }.into());
         }
         let is_lossless = e > 1.0 - LOSSLESS;
         let e = if is_lossless { 1.0 } else { e };
         let constant_validity = curve.validity(tolerance, |_| Ok(e))?;
         let (force, overlap) = (EndRule::ZeroForce, EndRule::ZeroOverlap);
         let constant = FittedLaw {
-            name: "one e for all speeds, Hertz",
             model: model_of(scene, LawFamily::Tsuji, overlap)?,
             values: vec![tsuji_coefficient(e)?],
             validity: constant_validity,
@@ -78,43 +104,52 @@ impl DemExport {
         let contact_time = one_contact_time(&curve.points);
         let law = linear_from_restitution(&pair, e, contact_time, overlap)?;
         let linear = FittedLaw {
-            name: "linear",
             model: model_of(scene, LawFamily::Linear, overlap)?,
             values: vec![law.stiffness(), law.damping()],
             validity: constant_validity,
         };
-        let viscoelastic = viscoelastic(scene, &curve, tolerance, is_lossless)?;
-        let mut hunt_crossley = match is_lossless {
-            true => Some(HuntCrossley::LOSSLESS),
-            false => fit_dissipation(&curve.points)?,
-        };
-        if let Some(fitted) = &mut hunt_crossley {
-            let made = |speed: f64| Ok(restitution_of(fitted.dissipation * speed));
-            fitted.validity = curve.validity(tolerance, made)?;
+        let mut laws = vec![constant, linear];
+        let families = [LawFamily::KuwabaraKono, LawFamily::HertzDashpot];
+        let dashpots = families.map(|family| {
+            let model = model_of(scene, family, force)?;
+            let values = match is_lossless {
+                true => vec![0.0],
+                false => {
+                    let (points, key) = (timeless(&curve.points), family.parameters()[0].key);
+                    Problem::new(&model, &points, &[key])?.fit(CONFIDENCE)?.values
+                }
+            };
+            FittedLaw::judged(model, values, &curve, tolerance)
+        });
+        for law in dashpots {
+            laws.push(law?);
         }
-        let (mut springs, mut mdr) = (None, None);
-        let mut laws = vec![constant, viscoelastic, linear];
         let has_strength = scene.bodies().iter().any(|body| body.yield_strength().is_some());
         let dents = has_strength || curve.law.is_some_and(LawFamily::is_elastic_plastic);
         if dents && !is_lossless {
-            if let Some(fitted) = fit_springs(&pair, &curve.points)? {
+            if let Some(values) = fit_springs(&pair, &curve.points)? {
                 let model = model_of(scene, LawFamily::Luding, force)?;
-                let values = vec![fitted.ratio, fitted.loading, fitted.depth];
-                let made = |speed: f64| Ok(model.outcome(&values, speed)?.restitution);
-                let validity = curve.validity(tolerance, made)?;
-                springs = Some(DentingSprings { validity, ..fitted });
-                laws.push(FittedLaw {
-                    name: "springs that dent (Luding)",
-                    model,
-                    values,
-                    validity,
-                });
+                laws.push(FittedLaw::judged(model, values.to_vec(), &curve, tolerance)?);
             }
-            if let Some(law) = by_mdr(case, &curve, tolerance) {
-                mdr = Some(([law.values[0], law.values[1]], law.validity));
-                laws.push(law);
-            }
+            laws.extend(by_mdr(case, &curve, tolerance));
         }
+        let of_speed = |law: &FittedLaw| LawOfSpeed {
+            name: law.model.family().name(),
+            values: law.values.clone(),
+            validity: law.validity,
+        };
+        let mut of_speed: Vec<LawOfSpeed> = laws[2..].iter().map(of_speed).collect();
+        let hunt_crossley = match is_lossless {
+            true => Some([0.0; 2]),
+            false => fit_dissipation(&curve.points)?,
+        };
+        if let Some(values) = hunt_crossley {
+            let made = |speed: f64| Ok(restitution_of(values[0] * speed));
+            let validity = curve.validity(tolerance, made)?;
+            of_speed.push(LawOfSpeed { name: "hunt_crossley", values: values.to_vec(), validity });
+        }
+        let friction = if dents { None } else { friction_of(case, &laws)? };
+        let lacks_friction = dents && case.scene().friction() > 0.0;
         let export = Export {
             title: scene.title().replace(char::is_control, " "),
             spheres: spheres(scene),
@@ -124,13 +159,11 @@ impl DemExport {
             restitution: e,
             contact_time,
             validity: constant_validity,
-            dissipation_time: (laws[1].values[0], laws[1].validity),
-            hunt_crossley,
-            springs,
-            mdr,
+            of_speed,
             bounds: curve.bounds.clone(),
-            notes: notes(&curve, is_lossless),
+            notes: notes(&curve, is_lossless, lacks_friction),
             band: curve.band.as_ref().map(|band| (band.confidence, band.widest())),
+            friction,
         };
         Ok(Self { curve, export, laws })
     }
@@ -143,30 +176,14 @@ fn one_contact_time(points: &[Point]) -> f64 {
 }
 
 /// Returns what a file must say of its restitutions apart from bounds.
-fn notes(curve: &ImpactCurve, is_lossless: bool) -> Vec<String> {
+fn notes(curve: &ImpactCurve, is_lossless: bool, lacks_friction: bool) -> Vec<String> {
     let elastic = curve.meant_elastic.iter().map(|name| {
         format!("the case means {name} to be elastic (elastic = true): e has no damping of it")
     });
     let lossless = is_lossless.then(|| "e is 1 at all speeds: nothing is lost".to_string());
-    curve.left_out.iter().cloned().chain(elastic).chain(lossless).collect()
-}
-
-/// Fits Kuwabara & Kono's law to the restitutions, without the contact times.
-fn viscoelastic(
-    scene: &Scene,
-    curve: &ImpactCurve,
-    tolerance: f64,
-    is_lossless: bool,
-) -> Result<FittedLaw, FitError> {
-    let model = model_of(scene, LawFamily::KuwabaraKono, EndRule::ZeroForce)?;
-    let points = timeless(&curve.points);
-    let values = match is_lossless {
-        true => vec![0.0],
-        false => Problem::new(&model, &points, &["a"])?.fit(CONFIDENCE)?.values,
-    };
-    let validity =
-        curve.validity(tolerance, |speed| Ok(model.outcome(&values, speed)?.restitution))?;
-    Ok(FittedLaw { name: "viscoelastic (Kuwabara-Kono)", model, values, validity })
+    let rubbing = "the friction of bodies that dent is not computed and is left out";
+    let smooth = lacks_friction.then(|| rubbing.to_string());
+    curve.left_out.iter().cloned().chain(elastic).chain(lossless).chain(smooth).collect()
 }
 
 /// Fits the yield strength of LAMMPS' `mdr` to the restitutions; `None` if no strength makes them.
@@ -177,9 +194,33 @@ fn by_mdr(case: &Case, curve: &ImpactCurve, tolerance: f64) -> Option<FittedLaw>
     let points = timeless(&curve.points);
     let values = law.problem(&points, &["yield_strength"]).ok()?.fit(CONFIDENCE).ok()?.values;
     let model = law.model().clone();
-    let made = |speed: f64| Ok(model.outcome(&values, speed)?.restitution);
-    let validity = curve.validity(tolerance, made).ok()?;
-    Some(FittedLaw { name: "mdr of LAMMPS", model, values, validity })
+    FittedLaw::judged(model, values, curve, tolerance).ok()
+}
+
+/// Returns friction and the tangential law of each file, whose normal laws these are; `None` of a case without friction.
+fn friction_of(case: &Case, laws: &[FittedLaw]) -> Result<Option<Friction>, LawFault> {
+    if case.scene().friction() == 0.0 {
+        return Ok(None);
+    }
+    let rebound = patch_rebound(case)?;
+    let mut fitted = BTreeMap::new();
+    for head in dem::heads() {
+        let Some((law, given)) = head.friction else { continue };
+        let family = match head.law {
+            "constant" if head.is_linear => "linear",
+            "constant" => "tsuji",
+            name => name,
+        };
+        let normal = laws.iter().find(|law| law.model.family().name() == family);
+        // Drake's dashpot is on a spring of its own; a sliding patch asks for the restitution alone.
+        let Some(normal) = normal.or(laws.first().filter(|_| law == FrictionLaw::Sliding)) else {
+            continue;
+        };
+        let fit =
+            rebound.fit(law, given, (&normal.model, &normal.values)).map_err(FitError::from)?;
+        fitted.insert(head.name, fit);
+    }
+    Ok(Some(Friction { rebound, fitted }))
 }
 
 /// Returns the points without their contact times.

@@ -54,6 +54,9 @@ pub enum LawFault {
     /// The restitution is a bound: the reasons.
     #[error("the restitution is a bound, and no number for a law: {}", .0.join("; "))]
     Bound(Vec<String>),
+    /// A contact law to compile does not hold an effect of the case: the message and the way out.
+    #[error("{0}")]
+    Unheld(String, String),
     /// The bodies stay together: the message and the way out.
     #[error("{0}")]
     Sticks(String, String),

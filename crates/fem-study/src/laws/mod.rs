@@ -50,6 +50,7 @@ mod law_fit;
 mod law_inversion;
 mod law_ranking;
 mod pair_export;
+mod pair_law;
 mod stored;
 mod stored_fit;
 
@@ -66,6 +67,7 @@ pub use law_fit::LawFit;
 pub use law_inversion::{LawInversion, needs_more};
 pub use law_ranking::{LawRanking, RankedLaw};
 pub use pair_export::{FittedPair, PairExport, PairNumbers};
+pub use pair_law::LawExport;
 pub use stored_fit::{RestitutionBand, StoredFit};
 
 pub use fem_data::estimate::FitError;

@@ -254,6 +254,8 @@ fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFaul
             (body.wall, body.half_space, body.plate, body.held) = (None, None, None, None);
         }
         file.gravity = None;
+        // That of another pair is not known.
+        file.contact.iter_mut().for_each(|contact| contact.friction = None);
     });
     Ok(edited?)
 }

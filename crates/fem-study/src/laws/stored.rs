@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::dem_export::DemExport;
 use super::law_fit::LawFit;
 use super::stored_fit::bodies;
-use fem_data::dem::{Snippet, Sphere, restitution_of};
+use fem_data::dem::{FittedFriction, Friction, Snippet, Sphere, restitution_of};
 use fem_data::estimate::{Fit, Model, Point, Profile, ProfilePoint};
 
 impl LawFit<'_> {
@@ -129,7 +129,7 @@ impl DemExport {
             "effective_mass_kg": export.pair.effective_mass(),
             "effective_radius_m": export.pair.effective_radius(),
             "contact_modulus_pa": export.pair.contact_modulus(),
-            "dissipation_time_s": export.dissipation_time.0,
+            "dissipation_time_s": export.of_speed("kuwabara_kono").map(|law| law.values[0]),
             "linear_contact_time_s": export.contact_time,
             "has_hertz_times": self.curve.has_hertz_times,
             "bounds": export.bounds,
@@ -138,8 +138,33 @@ impl DemExport {
                 "confidence": band.confidence,
                 "largest_half_width": band.widest(),
             })),
+            "friction": export.friction.as_ref().map(|friction| self.friction_numbers(friction)),
             "data": points.iter().map(point).collect::<Value>(),
             "snippets": snippets.iter().map(|snippet| self.snippet(snippet)).collect::<Value>(),
+        })
+    }
+
+    /// Returns the rebound of the patch, in units of μ times the approach speed, and the laws of codes without files: a spring of a
+    /// ratio k_t/k_n, and Walton's coefficient β₀.
+    fn friction_numbers(&self, friction: &Friction) -> Value {
+        let rebound = &friction.rebound;
+        let speed = rebound.speed;
+        let nearest = self.curve.points.iter().min_by(|one, other| {
+            let distance = |point: &Point| (point.speed / speed).ln().abs();
+            distance(one).total_cmp(&distance(other))
+        });
+        let walton = rebound.walton(nearest.map_or(1.0, |point| point.restitution));
+        let linear = friction.fitted.get("mfix_lsd.dat");
+        let law = |key: &str, fitted: &FittedFriction| json!({ key: fitted.factor, "rms": fitted.rms, "worst": fitted.worst });
+        json!({
+            "coefficient": rebound.friction,
+            "approach_speed_m_s": rebound.speed,
+            "tangential_modulus_pa": rebound.modulus,
+            "mindlin_stiffness_ratio": rebound.modulus / self.export.pair.contact_modulus(),
+            "patch_before": rebound.before,
+            "patch_after": rebound.after,
+            "linear": linear.map(|fitted| law("stiffness_ratio", fitted)),
+            "walton": law("beta_0", &walton),
         })
     }
 
@@ -150,13 +175,15 @@ impl DemExport {
         let family = LawFamily::from_name(snippet.law);
         let law =
             family.and_then(|family| self.laws.iter().find(|law| law.model.family() == family));
-        let at_speed = |point: &Point| match (snippet.restitution, self.export.hunt_crossley) {
+        let of_drake =
+            self.export.of_speed("hunt_crossley").filter(|_| snippet.law == "hunt_crossley");
+        let at_speed = |point: &Point| match (snippet.restitution, of_drake) {
             (Some(restitution), _) => Some(restitution),
-            (None, Some(fitted)) if law.is_none() => {
-                Some(restitution_of(fitted.dissipation * point.speed))
-            }
-            (None, _) => law?.outcome(point.speed).map(|outcome| outcome.restitution),
+            (None, Some(fitted)) => Some(restitution_of(fitted.values[0] * point.speed)),
+            (None, None) => law?.outcome(point.speed).map(|outcome| outcome.restitution),
         };
+        let friction = self.export.friction.as_ref();
+        let fitted = friction.and_then(|friction| friction.fitted.get(snippet.name));
         let entries = snippet.entries.iter().map(|(key, value)| (key.to_string(), json!(value)));
         json!({
             "file": snippet.name,
@@ -167,6 +194,12 @@ impl DemExport {
             "valid_from_m_s": (from <= to).then_some(from),
             "valid_to_m_s": (from <= to).then_some(to),
             "worst_error": worst,
+            "friction": fitted.map(|fitted| json!({
+                "stiffness_factor": fitted.factor,
+                "patch_after": fitted.after,
+                "rms": fitted.rms,
+                "worst": fitted.worst,
+            })),
             "restitutions_at_data": self.curve.points.iter().map(at_speed).collect::<Vec<_>>(),
         })
     }

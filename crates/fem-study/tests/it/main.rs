@@ -4,3 +4,4 @@ mod accuracy;
 mod calibrate;
 mod friction;
 mod pair_export;
+mod pair_law;

@@ -1,7 +1,6 @@
 //! Writers of `.vtu` files and of their time series.
 
 pub(crate) mod collection;
-pub(crate) mod encoding;
 pub(crate) mod grid;
 mod render;
 pub(crate) mod writer;

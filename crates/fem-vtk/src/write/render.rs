@@ -2,25 +2,26 @@
 
 use std::fmt::Write;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use quick_xml::escape::escape;
 
 use crate::blocks::{Compressed, compress};
 use crate::vtk_types::{ScalarType, Section};
-use crate::write::encoding::Encoding;
 use crate::write::writer::{NamedArray, VtuWriter};
 
-/// A file: XML, appended data (empty if inline), and XML again.
+/// A file: XML, the arrays in Base64 in one block, the default of VTK's writer, and [`END`].
+#[derive(Default)]
 pub(crate) struct RenderedFile {
-    encoding: Encoding,
     xml: String,
-    appended: Vec<u8>,
-    end: &'static str,
+    appended: String,
 }
+
+const END: &str = "\n  </AppendedData>\n</VTKFile>\n";
 
 impl RenderedFile {
     pub(crate) fn new(writer: &VtuWriter) -> std::io::Result<Self> {
-        let encoding = writer.encoding;
-        let mut file = Self { encoding, xml: String::new(), appended: Vec::new(), end: "" };
+        let mut file = Self::default();
         file.push_line(0, "<?xml version=\"1.0\"?>");
         file.push_line(
             0,
@@ -30,20 +31,14 @@ impl RenderedFile {
         file.push_line(1, "<UnstructuredGrid>");
         file.push_grid(writer)?;
         file.push_line(1, "</UnstructuredGrid>");
-        if encoding.is_appended() {
-            file.push_line(1, &format!("<AppendedData encoding=\"{}\">", encoding.appended_name()));
-            file.xml.push('_');
-            // meshio ends raw data at the last line break before the closing tag.
-            file.end = "\n  </AppendedData>\n</VTKFile>\n";
-        } else {
-            file.end = "</VTKFile>\n";
-        }
+        file.push_line(1, "<AppendedData encoding=\"base64\">");
+        file.xml.push('_');
         Ok(file)
     }
 
     /// Returns the consecutive parts of the file.
     pub(crate) fn parts(&self) -> [&[u8]; 3] {
-        [self.xml.as_bytes(), &self.appended, self.end.as_bytes()]
+        [&self.xml, &self.appended, END].map(str::as_bytes)
     }
 
     fn push_line(&mut self, level: usize, line: &str) {
@@ -139,14 +134,10 @@ impl RenderedFile {
         if let Some(n_tuples) = n_tuples {
             let _ = write!(self.xml, " NumberOfTuples=\"{n_tuples}\"");
         }
-        let data = self.encoding.encode(data);
-        if self.encoding.is_appended() {
-            let _ = writeln!(self.xml, " format=\"appended\" offset=\"{}\"/>", self.appended.len());
-            self.appended.extend(data);
-        } else {
-            let text = String::from_utf8_lossy(&data);
-            let _ = writeln!(self.xml, " format=\"binary\">{text}</DataArray>");
-        }
+        let _ = writeln!(self.xml, " format=\"appended\" offset=\"{}\"/>", self.appended.len());
+        // Base64 pads header and blocks separately.
+        STANDARD.encode_string(&data.header, &mut self.appended);
+        STANDARD.encode_string(&data.blocks, &mut self.appended);
     }
 }
 

@@ -6,7 +6,6 @@ use std::path::Path;
 use crate::error::Error;
 use crate::values::Values;
 use crate::vtk_types::Section;
-use crate::write::encoding::Encoding;
 use crate::write::grid::VtuGrid;
 use crate::write::render::RenderedFile;
 use crate::write::write_atomically;
@@ -20,7 +19,6 @@ pub struct VtuWriter<'a> {
     pub(super) grid: VtuGrid<'a>,
     /// Time of the snapshot, s.
     pub(super) time: Option<f64>,
-    pub(super) encoding: Encoding,
     arrays: Vec<NamedArray<'a>>,
 }
 
@@ -40,19 +38,12 @@ impl<'a> VtuWriter<'a> {
 
     /// Creates a writer on a grid that several files share.
     pub fn on(grid: &VtuGrid<'a>) -> Self {
-        let (grid, encoding) = (grid.clone(), Encoding::default());
-        Self { grid, time: None, encoding, arrays: Vec::new() }
+        Self { grid: grid.clone(), time: None, arrays: Vec::new() }
     }
 
     /// Sets the time of the snapshot in seconds, the field data `TimeValue`.
     pub fn time(mut self, time: f64) -> Self {
         self.time = Some(time);
-        self
-    }
-
-    /// Sets the encoding; [`Encoding::AppendedBase64`] is the default.
-    pub fn encoding(mut self, encoding: Encoding) -> Self {
-        self.encoding = encoding;
         self
     }
 

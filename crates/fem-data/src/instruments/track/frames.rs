@@ -39,7 +39,7 @@ impl Frames {
     /// # Errors
     /// A column is missing, a cell is no number, or the times do not increase.
     pub fn read(columns: &Table, rig: &Rig) -> Result<Self, DataError> {
-        let times = match (columns.find(&TIMES)?, columns.find(&FRAMES)?, rig.frame_rate) {
+        let times = match (columns.find(TIMES)?, columns.find(FRAMES)?, rig.frame_rate) {
             (None, Some(column), Some(Measured { value: rate, .. })) => {
                 columns.plain(column)?.values.into_iter().map(|frame| frame / rate).collect()
             }
@@ -49,16 +49,16 @@ impl Frames {
                     columns.header_fault(format!("{name} counts frames, whose rate is not given"));
                 return Err(error.with_help("give --frame-rate, such as --frame-rate '240 Hz'"));
             }
-            _ => columns.numbers(columns.require(&TIMES, "time_s")?, [0, 0, 1])?.values,
+            _ => columns.numbers(columns.require(TIMES, "time_s")?, [0, 0, 1])?.values,
         };
-        let height = columns.require(&HEIGHTS, "y_m or y_cm")?;
+        let height = columns.require(HEIGHTS, "y_m or y_cm")?;
         let in_pixels = columns.is_in_pixels(height);
         let lengths = |column: usize| match in_pixels {
             true => columns.plain(column),
             false => columns.numbers(column, [1, 0, 0]),
         };
         let heights = lengths(height)?.values;
-        let uncertainties = match columns.find(&HEIGHT_UNCERTAINTIES)? {
+        let uncertainties = match columns.find(HEIGHT_UNCERTAINTIES)? {
             Some(column) => lengths(column)?.values,
             None => vec![1.0; times.len()],
         };

@@ -4,12 +4,15 @@ use std::path::PathBuf;
 
 use comfy_table::CellAlignment::Left;
 use fem::fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
-use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
+use fem::measured::{Kind, Table, cradle_trials};
 use fem_report::law_figures::cradle_figure;
 use serde_json::{Value, json};
 
 use crate::{
-    arguments::{case::stem_of, data::ColumnArguments},
+    arguments::{
+        case::stem_of,
+        data::{ColumnArguments, of_kind},
+    },
     result_folder::command_output::OutputArguments,
     text::{Failure, headed, show_measured, standard_output, table},
 };
@@ -23,22 +26,22 @@ use crate::{
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     /// Distance from the pivot to a ball's centre, such as '20 cm ± 1 mm'
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = of_kind(Kind::Length))]
     length: Measured,
     /// Diameters of the first and the second ball, of the same material: '22.2 mm,15.9 mm'
     #[arg(long, value_name = "D1,D2", value_delimiter = ',', num_args = 1..=2,
-        value_parser = length, conflicts_with = "masses")]
+        value_parser = of_kind(Kind::Length), conflicts_with = "masses")]
     diameters: Vec<Measured>,
     /// Masses of the first and the second ball: '13.7 g ± 0.1 g,5.03 g'
     #[arg(long, value_name = "M1,M2", value_delimiter = ',', num_args = 1..=2,
-        value_parser = mass, required_unless_present = "diameters")]
+        value_parser = of_kind(Kind::Mass), required_unless_present = "diameters")]
     masses: Vec<Measured>,
     /// Angle from which the first ball is released: '20 deg ± 0.2 deg'
-    #[arg(long, value_name = "ANGLE", value_parser = angle, required_unless_present = "data",
+    #[arg(long, value_name = "ANGLE", value_parser = of_kind(Kind::Angle), required_unless_present = "data",
         conflicts_with = "data")]
     alpha: Option<Measured>,
     /// Angle to which the second ball rises
-    #[arg(long, value_name = "ANGLE", value_parser = angle, required_unless_present = "data",
+    #[arg(long, value_name = "ANGLE", value_parser = of_kind(Kind::Angle), required_unless_present = "data",
         conflicts_with = "data")]
     beta: Option<Measured>,
     /// Trials: a CSV file with the columns alpha_deg and beta_deg (or _rad), optionally
@@ -48,29 +51,13 @@ pub struct Arguments {
     #[command(flatten)]
     columns: ColumnArguments,
     /// Uncertainty of angles without one
-    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    #[arg(long, value_name = "ANGLE", value_parser = of_kind(Kind::Angle))]
     angle_uncertainty: Option<Measured>,
     /// Acceleration of free fall [default: 9.80665 m/s^2]
-    #[arg(long, value_name = "G", value_parser = acceleration)]
+    #[arg(long, value_name = "G", value_parser = of_kind(Kind::Acceleration))]
     gravity: Option<Measured>,
     #[command(flatten)]
     output: OutputArguments,
-}
-
-fn length(text: &str) -> Result<Measured, NotMeasured> {
-    parse_measured(Kind::Length, text)
-}
-
-fn mass(text: &str) -> Result<Measured, NotMeasured> {
-    parse_measured(Kind::Mass, text)
-}
-
-fn angle(text: &str) -> Result<Measured, NotMeasured> {
-    parse_measured(Kind::Angle, text)
-}
-
-fn acceleration(text: &str) -> Result<Measured, NotMeasured> {
-    parse_measured(Kind::Acceleration, text)
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {

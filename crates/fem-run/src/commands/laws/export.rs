@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 
 use fem::fit::dem::{BAND_FILE, Snippet, grain_snippets};
-use fem::laws::{DemExport, ImpactCurve, PairExport, StoredFit};
+use fem::laws::{DemExport, ImpactCurve, LawExport, PairExport, StoredFit};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_report::law_figures::export_figure;
 use serde_json::Value;
 
-use super::export_text::{export_text, law_note, pairs_csv, pairs_json, pairs_text};
+use super::export_text::{
+    export_text, law_json, law_note, law_text, pairs_csv, pairs_json, pairs_text,
+};
 use crate::arguments::case::CaseArguments;
 use crate::arguments::data::RestitutionArguments;
 use crate::arguments::law::{parse_length, parse_share, parse_speed};
@@ -25,7 +27,7 @@ const PAIRS_TOLERANCE: f64 = 0.01;
 
 /// Write input for DEM codes that reproduces the restitutions
 ///
-/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM and, in robotics, Drake and MuJoCo. The restitutions come from
+/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM and, in robotics, Drake, MuJoCo and Newton. The restitutions come from
 /// the sweep.csv of a sweep over speeds, from a measurement, from a law fitted to one or, without --data
 /// and --fit, from the case: its contact law or, in place of another model, the law mean_pressure where bodies flow and
 /// Ting's or Hertz' model elsewhere. Each snippet states the speeds for which it is valid.
@@ -55,6 +57,10 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',', value_parser = parse_length,
         conflicts_with = "data")]
     diameters: Vec<f64>,
+    /// Write the computed pair itself, as a contact law in one C header, pair_CASE.h, with e(v) and T(v) [default of --speeds: a
+    /// decade on both sides of the speed of the case]
+    #[arg(long, conflicts_with_all = ["data", "fit", "materials", "diameters", "tolerance"])]
+    law: bool,
     /// Largest error of the restitution at which a snippet counts as valid [default: 0.01 or, if it is larger,
     /// three standard deviations of the data from a smooth curve, or the rms error of the fit]
     #[arg(long, value_name = "E", value_parser = parse_share)]
@@ -73,7 +79,7 @@ struct Exported {
     /// The table of all pairs.
     table: Option<Vec<u8>>,
     /// The files for the codes, and the table of the band, by name.
-    texts: Vec<(&'static str, String)>,
+    texts: Vec<(String, String)>,
     /// The laws of one pair, which are drawn.
     fitted: Option<DemExport>,
     /// The printed text.
@@ -116,13 +122,17 @@ fn exported(
     if !(arguments.materials.is_empty() && arguments.diameters.is_empty()) {
         return pairs(arguments, case, &name);
     }
+    if arguments.law {
+        return law(arguments, case, &name);
+    }
     let (fitted, snippets) = fitted(arguments, case, table)?;
     let ImpactCurve { bounds, left_out, band, .. } = &fitted.curve;
     // Those of a fit are among its own warnings.
     let bounds = bounds.iter().filter(|_| arguments.fit.is_none());
     let warnings = bounds.chain(left_out).cloned().collect();
     let texts = snippets.iter().map(|snippet| (snippet.name, snippet.text.clone()));
-    let texts = texts.chain(band.as_ref().map(|band| (BAND_FILE, band.csv()))).collect();
+    let texts = texts.chain(band.as_ref().map(|band| (BAND_FILE, band.csv())));
+    let texts = texts.map(|(name, text)| (name.to_string(), text)).collect();
     let detail = if arguments.verbose { Detail::All } else { Detail::Short };
     let mut shown = export_text(&fitted, &snippets, detail);
     shown += &law_note(&fitted, arguments.data.is_some());
@@ -136,6 +146,25 @@ fn exported(
     Ok(Exported { warnings, numbers, table: None, texts, fitted: Some(fitted), shown })
 }
 
+/// Writes the pair as a C header, which is named after the case.
+fn law(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failure> {
+    let stem = arguments.input.stem();
+    let identifier = stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    let export =
+        LawExport::of(case, &identifier, arguments.speeds, arguments.restitutions.as_elastic)?;
+    Ok(Exported {
+        warnings: Vec::new(),
+        numbers: law_json(&export, name),
+        table: None,
+        texts: [(export.law.file_name(), export.law.header())]
+            .into_iter()
+            .chain(export.law.hosts())
+            .collect(),
+        fitted: None,
+        shown: law_text(&export),
+    })
+}
+
 fn pairs(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failure> {
     let tolerance = arguments.checked_tolerance()?.unwrap_or(PAIRS_TOLERANCE);
     let Arguments { materials, diameters, speeds, .. } = arguments;
@@ -146,7 +175,10 @@ fn pairs(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Fai
         warnings: export.warnings(),
         numbers: pairs_json(&export, name, &rows)?,
         table: Some(pairs_csv(&rows)?),
-        texts: grain_snippets(&export.grains, &export.of_codes()),
+        texts: grain_snippets(&export.grains, &export.of_codes())
+            .into_iter()
+            .map(|(name, text)| (name.to_string(), text))
+            .collect(),
         fitted: None,
         shown: pairs_text(&export, &rows),
     })
@@ -216,7 +248,8 @@ fn fitted(
     };
     let tolerance = tolerance.unwrap_or_else(|| curve.default_tolerance());
     let fitted = DemExport::of(case, curve, tolerance)?;
-    let snippets = fitted.export.snippets()?;
+    let mut snippets = fitted.export.snippets()?;
+    snippets.sort_by(|one, other| one.validity[2].total_cmp(&other.validity[2]));
     Ok((fitted, snippets))
 }
 

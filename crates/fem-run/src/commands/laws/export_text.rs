@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use fem::fit::dem::Snippet;
-use fem::laws::{DemExport, PairExport, PairNumbers};
+use fem::fit::dem::{Friction, Snippet};
+use fem::laws::{DemExport, LawExport, PairExport, PairNumbers};
 use fem_case::engineering::{Unit, number, show};
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
@@ -25,14 +25,19 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet], detail: Detail) -> 
             valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
             format!("{worst:.3}"),
         ];
-        let input = entries.collect::<Vec<_>>().join(", ");
+        let rubbing = export.friction.as_ref().map(|friction| friction.fitted.get(snippet.name));
+        cells.extend(
+            rubbing.map(|fit| fit.map_or("-".to_string(), |fit| format!("{:.3}", fit.rms))),
+        );
+        let stiffness = rubbing.flatten().filter(|fit| fit.factor > 0.0);
+        let stiffness = stiffness.map(|fit| format!("k_t factor {}", number(fit.factor, 3)));
+        let input = entries.chain(stiffness).collect::<Vec<_>>().join(", ");
         cells.extend(Some(input).filter(|_| detail == Detail::All));
         cells
     };
-    let header = match detail {
-        Detail::All => "file|valid|>worst|input",
-        Detail::Short => "file|valid|>worst",
-    };
+    let rubs = if export.friction.is_some() { "|>friction" } else { "" };
+    let input = if detail == Detail::All { "|input" } else { "" };
+    let header = format!("file|valid|>worst{rubs}{input}");
     let of_scatter = match curve.law {
         _ if export.tolerance != curve.scatter => String::new(),
         Some(law) => format!(", the error of the law {}", law.name()),
@@ -50,13 +55,73 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet], detail: Detail) -> 
         number(export.tolerance, 2),
         export.restitution
     );
-    format!("{heading}\n\n{}\n\n{}", hanging(&judged), headed(header, snippets.iter().map(row)))
+    let judged = judged + &export.friction.as_ref().map_or_else(String::new, friction_text);
+    format!("{heading}\n\n{}\n\n{}", hanging(&judged), headed(&header, snippets.iter().map(row)))
+}
+
+/// Returns what the column of friction means, and the spring for codes without a file.
+fn friction_text(friction: &Friction) -> String {
+    let linear = friction.fitted.get("mfix_lsd.dat").map_or_else(String::new, |fit| {
+        let (ratio, rms) = (number(fit.factor, 2), number(fit.rms, 2));
+        format!(" Other codes with a linear spring: k_t = {ratio} k_n makes {rms}.")
+    });
+    format!(
+        " friction: rms error of the velocity with which the contact patch rebounds, over mu v, at {} angles.{linear}",
+        friction.rebound.before.len()
+    )
+}
+
+/// Returns the file of a contact law to compile with the speeds and errors that it was checked with.
+pub fn law_text(export: &LawExport) -> String {
+    let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
+    let [slow, fast] = export.speeds();
+    let checked = format!(
+        "checked from {} to {} at 100 steps per contact, with contacts up to {} of R*: e within {}, contact time within {} %, \
+         largest force within {} % of {model}. Use it with 50 steps per contact or more.",
+        show(slow, "m/s"),
+        show(fast, "m/s"),
+        number(*contact_ratio, 2),
+        number(*e, 2),
+        number(100.0 * time, 2),
+        number(100.0 * force, 2)
+    );
+    let of_point =
+        |[speed, e, time]: &[f64; 3]| [show(*speed, "m/s"), format!("{e:.4}"), show(*time, "s")];
+    format!(
+        "{}: a contact law in C99, {} bytes per contact\n\n{}\n\n{}",
+        law.file_name(),
+        law.memory(),
+        hanging(&checked),
+        headed(">speed|>e|>contact time", law.curve.iter().step_by(4).map(of_point))
+    )
+}
+
+/// Returns the same for the JSON file, SI.
+pub fn law_json(export: &LawExport, case: &str) -> Value {
+    let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
+    let column = |k: usize| law.curve.iter().map(|point| point[k]).collect::<Vec<f64>>();
+    json!({
+        "case": case,
+        "law": {
+            "file": law.file_name(),
+            "model": model,
+            "speed_m_s": column(0),
+            "restitution": column(1),
+            "contact_time_s": column(2),
+            "restitution_error": e,
+            "contact_time_error": time,
+            "peak_force_error": force,
+            "contact_ratio": contact_ratio,
+            "bytes_per_contact": law.memory(),
+        },
+    })
 }
 
 /// Returns which laws the files have, and why not the one that fits best.
 pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
     let own = match fitted.curve.law {
         Some(LawFamily::KuwabaraKono) => Some("lammps_viscoelastic.in"),
+        Some(LawFamily::HertzDashpot) => Some("lammps_velocity.in"),
         Some(LawFamily::Tsuji) => Some("lammps_tsuji.in"),
         Some(LawFamily::Linear) => Some("liggghts_hooke.in"),
         Some(LawFamily::Mdr) => Some("lammps_mdr.in"),
@@ -74,13 +139,14 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
             "{file} has the law {law}. Each other file has the law of its code that is nearest to it."
         ),
         (Some(law), None) => {
-            let dents = match fitted.export.springs {
+            let dents = match fitted.export.of_speed("luding") {
                 Some(_) => ", LAMMPS' mdr and Luding's springs",
                 None => "",
             };
             format!(
                 "None of these codes has the law {law}. Each file has the law of its code that is nearest to it: one \
-                 e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in), Hunt-Crossley (drake_point_contact.py)\
+                 e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in), a constant dashpot (lammps_velocity.in), Hunt-Crossley \
+                 (drake_point_contact.py)\
                  {dents}."
             )
         }

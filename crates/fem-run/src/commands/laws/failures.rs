@@ -26,9 +26,9 @@ impl From<LawFault> for Failure {
                 "leave {key} out of --free to use Hertz' contact time, or give contact times with a column \
                  contact_time_s and --contact-time"
             )),
-            LawFault::Grains(_, help) | LawFault::Sticks(_, help) => {
-                Failure::bad_input(message).with_help(help)
-            }
+            LawFault::Grains(_, help)
+            | LawFault::Sticks(_, help)
+            | LawFault::Unheld(_, help) => Failure::bad_input(message).with_help(help),
             LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
                 .with_help("leave it out, or fit it alone with --law"),
             LawFault::Bound(_) => Failure::bad_input(message).with_help(

@@ -8,7 +8,7 @@ use fem_collision::{
 use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
-use super::{phase, report};
+use super::report;
 
 /// The restart state of a bouncing ball, in addition to that of the present contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -212,8 +212,8 @@ impl Bounced {
         let bodies = collision.bodies.iter().filter(|body| body.mass.is_some());
         let left: f64 = bodies.filter_map(|body| body.vibration_energy).sum();
         let initial = collision.initial_energy.unwrap_or(f64::INFINITY);
-        let bound = phase::bound(self.vibration, left, initial, bounce.restitution);
-        if bound > self.phase.map_or(phase::MAX_SILENT_BOUND, |(_, largest)| largest) {
+        let bound = report::phase_bound(self.vibration, left, initial, bounce.restitution);
+        if bound > self.phase.map_or(report::MAX_SILENT_BOUND, |(_, largest)| largest) {
             self.phase = Some((self.bounces.len(), bound));
         }
         self.vibration = left;

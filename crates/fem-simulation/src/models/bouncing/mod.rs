@@ -9,12 +9,11 @@
 //!
 //! A ball that does not rise to y = 0 is at rest. Each contact begins with bodies without vibration or strain history. The
 //! energy that earlier contacts left in them has its own account ([`Account::LeftBefore`](fem_collision::Account)), and the
-//! influence of its phase is bounded ([`phase`]). Meshes chosen by the plan are refined when contacts become too small for
+//! influence of its phase is bounded ([`report`]). Meshes chosen by the plan are refined when contacts become too small for
 //! them.
 
 mod bounced;
 mod chain;
-mod phase;
 mod report;
 mod stepper;
 

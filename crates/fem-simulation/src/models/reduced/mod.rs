@@ -144,6 +144,24 @@ impl Reduced {
         Self::of(&Regime::of(scene.clone())?)
     }
 
+    /// Returns the loads of the contact's springs at an approach speed, m/s; `None` of an impact that is not computed.
+    pub(super) fn springs_at(&self, speed: f64) -> Option<NormalSprings> {
+        self.springs_of(&self.impact(speed).ok()?)
+    }
+
+    /// Returns the loads of the contact's springs in an impact.
+    fn springs_of(&self, impact: &Impact) -> Option<NormalSprings> {
+        let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
+            ModelChoice::Ting { .. } => body.material().cloned(),
+            _ => Some(body.material()?.without_relaxation()),
+        });
+        let [lower, upper] = materials.each_ref().map(Option::as_ref);
+        let relaxation = PairRelaxation::new(lower, upper).ok()?;
+        let gravity = self.scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
+        let (pair, law, n_steps) = (&self.pair, self.law(), NormalSprings::N_STEPS);
+        NormalSprings::of_impact(impact, pair, &relaxation, law, gravity, n_steps).ok()
+    }
+
     /// Builds the reduced model of a scene in its regime.
     ///
     /// # Errors
@@ -206,8 +224,14 @@ impl Reduced {
     pub fn restitution_error(scene: &Scene, law: LawInput, speed: f64) -> Option<f64> {
         let end_rule = law.family.end_rule().unwrap_or_default();
         let tolerance = fem_case::defaults::LAW_TOLERANCE;
-        let scene =
-            scene.touching_at(speed)?.with_model(ModelChoice::Law { law, end_rule, tolerance });
+        let model = ModelChoice::Law { law, end_rule, tolerance };
+        Self::model_error(&scene.clone().with_model(model), speed)
+    }
+
+    /// Returns the error of the restitution by the reduced model of a scene at an approach speed, m/s, as
+    /// [`Reduced::restitution_error`] does that of a law.
+    pub fn model_error(scene: &Scene, speed: f64) -> Option<f64> {
+        let scene = scene.touching_at(speed)?;
         let setup = Self::new(&scene).ok()?.setup;
         setup.restitution_error(&scene, |effect| effect != RateDependence::NAME)
     }
@@ -292,19 +316,6 @@ impl Reduced {
     ) -> Collision {
         let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
         collision::of_impact(impact, &frame, &self.pair, self.law(), request)
-    }
-
-    /// Returns the contact of an impact as independent springs.
-    fn springs_of(&self, impact: &Impact) -> Option<NormalSprings> {
-        let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
-            ModelChoice::Ting { .. } => body.material().cloned(),
-            _ => Some(body.material()?.without_relaxation()),
-        });
-        let [lower, upper] = materials.each_ref().map(Option::as_ref);
-        let relaxation = PairRelaxation::new(lower, upper).ok()?;
-        let gravity = self.scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
-        let (pair, law, n_steps) = (&self.pair, self.law(), NormalSprings::N_STEPS);
-        NormalSprings::of_impact(impact, pair, &relaxation, law, gravity, n_steps).ok()
     }
 }
 

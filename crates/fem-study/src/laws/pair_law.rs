@@ -1,0 +1,444 @@
+//! The computed pair as a contact law that other codes compile.
+//!
+//! Elastic pairs are Hertz' with finite size; pairs that relax, plates and friction are springs ([`ContactSprings`]); pairs that flow are
+//! a table of the law `mean_pressure`, or of the law of the case that dents. The law is run beside the model that it stands for.
+
+use std::f64::consts::PI;
+
+use fem_case::engineering::{number, show};
+use fem_case::schema::{HertzTable, ModelTable, TingTable};
+use fem_case::{Body, Case, ModelChoice, Scene};
+use fem_data::dem::{DentTable, PairLaw, Repulsion, ShearSprings};
+use fem_data::estimate::FitError;
+use fem_data::relaxation::reduced_series;
+use fem_laws::{
+    Adhesion, ContactSprings, EndRule, HertzImpact, ImpactQuantities, LawFamily, LawInput, Pair,
+    PairRelaxation, SpringProfile, radiation_damping, verlet_impact,
+};
+use fem_simulation::{
+    Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces,
+    restitution_with_adhesion, surfaces_slip,
+};
+
+use super::chosen_law::plate_of;
+use super::law_fault::LawFault;
+
+/// Speeds of the tables of e and T.
+const N_SPEEDS: usize = 17;
+/// Factor between the speed of the case and the ends of the range.
+const RANGE: f64 = 10.0;
+/// Factor by which the upper end shrinks until the model has a result.
+const SHRINK: f64 = 0.75;
+/// Relative tolerance of the complex modulus of the reduced series, and factor by which its frequencies reach beyond π/T of both ends.
+const SERIES_TOLERANCE: f64 = 2e-4;
+const SERIES_MARGIN: f64 = 3.0;
+/// Steps per contact of the check, and those that the fastest term of a series resolves.
+const N_STEPS: f64 = 100.0;
+/// Rows of the table of a law that dents, to three times the largest approach.
+const N_KNOTS: usize = 48;
+const DEEPER: f64 = 3.0;
+/// A speed at which any adhesion holds bodies together, m/s.
+const STILL: f64 = 1e-9;
+
+/// A contact law to compile and its errors beside the model that it stands for.
+#[derive(Clone, Debug)]
+pub struct LawExport {
+    /// The law.
+    pub law: PairLaw,
+    /// The model that it stands for.
+    pub model: String,
+    /// Largest errors of the law over the speeds at 100 steps per contact: of e, and of T and F relative.
+    pub errors: [f64; 3],
+    /// Largest contact radius over the effective radius.
+    pub contact_ratio: f64,
+    /// The impacts of that model at the speeds of the law's curve, without adhesion.
+    pub impacts: Vec<ImpactQuantities>,
+}
+
+/// The results of the model at a speed.
+#[derive(Clone, Copy, Debug)]
+struct Computed {
+    speed: f64,
+    quantities: ImpactQuantities,
+    /// Error of the restitution by the model, if it is known.
+    error: Option<f64>,
+}
+
+impl LawExport {
+    /// Returns the law of a case's bodies under a name, from one speed to another, m/s, or over a decade on both sides of that of the case.
+    ///
+    /// # Errors
+    /// The header has no form for an effect of the case, the model has no result, or its restitution is a bound at the speed of the case,
+    /// unless bounds are taken as they are.
+    pub fn of(
+        case: &Case,
+        name: &str,
+        speeds: Option<(f64, f64)>,
+        as_elastic: bool,
+    ) -> Result<Self, LawFault> {
+        let source = Source::of(case, speeds)?;
+        let scene = source.case.scene();
+        let bounds = bounds_of_closed_forms(scene, scene.approach_speed());
+        if !(as_elastic || bounds.is_empty()) {
+            return Err(LawFault::Bound(bounds));
+        }
+        let pair = scene.pair().map_err(FitError::from)?;
+        let repulsion = source.repulsion(&pair)?;
+        let adhesion = adhesion_of(scene, &pair);
+        let errors = source.computed.iter().map(|at| error_of(&repulsion, &pair, at));
+        let errors: Vec<[f64; 3]> = errors.collect();
+        let largest = |k: usize| errors.iter().map(|error| error[k]).fold(0.0, f64::max);
+        let point = |at: &Computed| {
+            let e = restitution_with_adhesion(scene, at.speed, at.quantities.restitution);
+            [at.speed, e, at.quantities.contact_time]
+        };
+        let curve: Vec<[f64; 3]> = source.computed.iter().map(point).collect();
+        let widest = source.computed.iter().map(|at| at.quantities.max_contact_radius);
+        let contact_ratio = widest.fold(0.0, f64::max) / pair.effective_radius();
+        let law =
+            PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
+        let errors_all = [0, 1, 2].map(largest);
+        let impacts = source.computed.iter().map(|at| at.quantities).collect();
+        let model = source.model_words();
+        let export = Self { law, model, errors: errors_all, contact_ratio, impacts };
+        let head = export.head(scene, &source.computed, &errors);
+        Ok(Self { law: PairLaw { head, ..export.law }, ..export })
+    }
+
+    /// Returns the ends of the range of speeds, m/s.
+    pub fn speeds(&self) -> [f64; 2] {
+        [0, self.law.curve.len() - 1].map(|k| self.law.curve[k][0])
+    }
+
+    /// Returns the comment at the head of the file.
+    fn head(&self, scene: &Scene, computed: &[Computed], errors: &[[f64; 3]]) -> Vec<String> {
+        let clean = |text: &str| text.replace("*/", "* /").replace(char::is_control, " ");
+        let bodies = scene.bodies().each_ref().map(|body| {
+            let size = body.diameter().map_or(String::new(), |d| format!(" {}", show(d, "m")));
+            format!(
+                "{}{size} of {}",
+                body.name(),
+                body.material_name().unwrap_or("nothing that yields")
+            )
+        });
+        let [slow, fast] = [computed[0].speed, computed[computed.len() - 1].speed];
+        let [of_e, of_time, of_force] = self.errors;
+        let mut head = vec![
+            clean(scene.title()),
+            clean(&bodies.join(", ")),
+            String::new(),
+            format!("Stands for: {}.", self.model),
+            format!(
+                "Checked from {} to {}, contact radius up to {} of R*, 100 steps per contact: e within {},",
+                show(slow, "m/s"),
+                show(fast, "m/s"),
+                number(self.contact_ratio, 2),
+                number(of_e, 2)
+            ),
+            format!(
+                "contact time within {} % and largest force within {} % of that model. Take 50 steps or more.",
+                number(100.0 * of_time, 2),
+                number(100.0 * of_force, 2)
+            ),
+            String::new(),
+            "   speed, m/s         e   +/- law   +/- model   contact time, s".to_string(),
+        ];
+        let rows = self.law.curve.iter().zip(computed).zip(errors).step_by(2);
+        head.extend(rows.map(|(([speed, e, time], at), [error, ..])| {
+            let model = at.error.map_or("unknown".to_string(), |error| format!("{error:.4}"));
+            format!("{speed:>13.5e}  {e:.5}   {error:.5}   {model:>9}     {time:.5e}")
+        }));
+        head.extend([
+            String::new(),
+            format!(
+                "Made by fem-run {}: fem-run export CASE --law. Licence: MIT or Apache-2.0.",
+                env!("CARGO_PKG_VERSION")
+            ),
+        ]);
+        head
+    }
+}
+
+/// The bodies of a case under the model that the law stands for, and its results.
+struct Source {
+    case: Case,
+    /// The law that dents, and its flow stress at the ends of the range.
+    dents: Option<(Reduced, [f64; 2])>,
+    computed: Vec<Computed>,
+}
+
+impl Source {
+    fn of(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
+        plate_of(case.scene())?;
+        let case = with_model(case)?;
+        let own = case.scene().approach_speed();
+        let at = |speed: f64| computed(&case, speed);
+        let (slow, fast) = match speeds {
+            Some(range) => range,
+            None => {
+                let mut fast = RANGE * own;
+                while fast > own && at(fast).is_err() {
+                    fast = (SHRINK * fast).max(own);
+                }
+                (own / RANGE, fast)
+            }
+        };
+        let share = |k: usize| k as f64 / (N_SPEEDS - 1) as f64;
+        let computed = (0..N_SPEEDS).map(|k| at(slow * (fast / slow).powf(share(k))));
+        let computed: Vec<Computed> = computed.collect::<Result<_, LawFault>>()?;
+        let dents = dents(&case, [slow, fast])?;
+        if dents.is_some() {
+            check_dents(case.scene())?;
+        }
+        Ok(Self { case, dents, computed })
+    }
+
+    fn model_words(&self) -> String {
+        match (&self.dents, self.case.scene().model()) {
+            (_, ModelChoice::Law { law, .. }) => format!("the law {}", law.family.name()),
+            (Some(_), _) => "the law mean_pressure, a fit to finite elements".to_string(),
+            (None, ModelChoice::Ting { finite_size, .. }) => {
+                format!("Ting's model{}", if *finite_size { " with finite size" } else { "" })
+            }
+            (None, ModelChoice::Hertz { finite_size: true }) => {
+                "Hertz' model with finite size".to_string()
+            }
+            _ => "Hertz' model".to_string(),
+        }
+    }
+
+    fn repulsion(&self, pair: &Pair) -> Result<Repulsion, LawFault> {
+        if let Some((reduced, strengths)) = &self.dents {
+            return self.dent_table(reduced, *strengths).map(Repulsion::Dents);
+        }
+        let scene = self.case.scene();
+        let finite_size = match scene.model() {
+            ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => {
+                *finite_size
+            }
+            _ => false,
+        };
+        let is_ting = matches!(scene.model(), ModelChoice::Ting { .. });
+        let profile = SpringProfile {
+            finite_size: finite_size.then(|| scene.finite_size()).transpose()?,
+            surface_slip: (is_ting && surfaces_slip(scene)).then(|| scene.surface_slip()),
+        };
+        let materials = scene.bodies().each_ref().map(|body| {
+            let material = body.material()?;
+            Some(if is_ting { material.clone() } else { material.without_relaxation() })
+        });
+        let [lower, upper] = materials.each_ref().map(Option::as_ref);
+        let relaxation = PairRelaxation::new(lower, upper)?;
+        let plate = plate_of(scene)?;
+        let radii = [0, N_SPEEDS - 1].map(|k| self.computed[k].quantities.max_contact_radius);
+        let radiating = match is_ting {
+            true => radiating_half_spaces(scene, scene.approach_speed()),
+            false => Vec::new(),
+        };
+        let is_plain = plate.is_none() && scene.friction() == 0.0 && radiating.is_empty();
+        if relaxation.terms().is_empty() && is_plain {
+            return Ok(Repulsion::Hertz(profile.elastic(pair, &relaxation, radii[1])));
+        }
+        let times = [0, N_SPEEDS - 1].map(|k| self.time_scale(pair, k));
+        let middle = PI / (times[0] * times[1]).sqrt();
+        let reduced = |relaxation: &PairRelaxation| {
+            let range = [PI / (SERIES_MARGIN * times[0]), SERIES_MARGIN * PI / times[1]];
+            let (weight, terms) = (relaxation.equilibrium_weight(), relaxation.terms());
+            reduced_series(weight, terms, range, times[0] / N_STEPS, SERIES_TOLERANCE)
+        };
+        let springs = ContactSprings::new(pair, &relaxation, &profile, radii, middle)?;
+        let (weight, terms) = reduced(&relaxation);
+        let springs = springs.with_series(weight, terms);
+        let hertz = HertzImpact::new(pair, scene.approach_speed())?;
+        let mobility = plate.map_or(0.0, |plate| match finite_size {
+            true => plate.mobility(&hertz),
+            false => plate.thin_mobility(),
+        });
+        let springs =
+            springs.on_plate(mobility).radiating(radiating.iter().map(radiation_damping).sum());
+        let shear = match scene.friction() > 0.0 {
+            true => {
+                let (modulus, relaxation) = PairRelaxation::tangential(lower, upper)?;
+                let size = finite_size.then(|| scene.tangential_size()).transpose()?;
+                let (equilibrium_weight, terms) = reduced(&relaxation);
+                let friction = scene.friction();
+                let stiffnesses = springs.shear_stiffnesses(modulus, size.as_ref());
+                Some(ShearSprings { friction, stiffnesses, equilibrium_weight, terms })
+            }
+            false => None,
+        };
+        Ok(Repulsion::Springs(springs, shear))
+    }
+
+    /// Returns the contact time at one of the speeds, s; that of Hertz where the bodies stay together.
+    fn time_scale(&self, pair: &Pair, k: usize) -> f64 {
+        let Computed { speed, quantities, .. } = self.computed[k];
+        let hertz = || HertzImpact::new(pair, speed).map_or(f64::NAN, |hertz| hertz.contact_time());
+        Some(quantities.contact_time).filter(|time| time.is_finite()).unwrap_or_else(hertz)
+    }
+
+    fn dent_table(&self, reduced: &Reduced, strengths: [f64; 2]) -> Result<DentTable, LawFault> {
+        let missing = || LawFault::Unheld("the law has no rebound".into(), "remove [model]".into());
+        let law = reduced.law().ok_or_else(missing)?;
+        let [slow, fast] = [0, N_SPEEDS - 1].map(|k| self.computed[k]);
+        let deepest = DEEPER * fast.quantities.max_approach;
+        let first = law.first_yield().ok_or_else(missing)?;
+        // A law that dents at once has its table from far below the slowest contact.
+        let first = first.min(1e-3 * slow.quantities.max_approach.max(first.min(deepest)));
+        let log_ratio = (deepest / first).max(2.0).ln() / (N_KNOTS - 1) as f64;
+        let knot = |k: usize| {
+            let approach = first * (log_ratio * k as f64).exp();
+            let [force, length, exponent] = law.indentation(approach).ok_or_else(missing)?;
+            Ok([force.ln(), length / approach, exponent])
+        };
+        let knots = (0..N_KNOTS).map(knot).collect::<Result<_, LawFault>>()?;
+        let rate_power = (strengths[1] / strengths[0]).ln() / (fast.speed / slow.speed).ln();
+        let middle = (slow.speed * fast.speed).sqrt();
+        let rate = [rate_power, middle];
+        Ok(DentTable { stiffness: law.stiffness(), yield_approach: first, log_ratio, knots, rate })
+    }
+}
+
+/// Returns the case with the model that the law stands for: its own or, in place of elements, Ting's where a body relaxes and Hertz'
+/// or a half-space radiates waves, and Hertz' elsewhere, of finite size unless the contact is too wide.
+fn with_model(case: &Case) -> Result<Case, LawFault> {
+    let scene = case.scene();
+    match scene.model() {
+        ModelChoice::Ting { .. } | ModelChoice::Hertz { .. } => return Ok(case.clone()),
+        ModelChoice::Law { law, .. } if law.family.strength_parameter().is_some() => {
+            return Ok(case.clone());
+        }
+        ModelChoice::Law { law, .. } => {
+            let message = format!(
+                "the header holds the computed pair, and law {} is a formula",
+                law.family.name()
+            );
+            let help = "remove [model], or export the case without this option";
+            return Err(LawFault::Unheld(message, help.into()));
+        }
+        _ => {}
+    }
+    let radiates = !radiating_half_spaces(scene, scene.approach_speed()).is_empty();
+    let is_ting = radiates || scene.bodies().iter().any(relaxes);
+    let with_size = |size: bool| {
+        let (ting, hertz) = match is_ting {
+            true => (Some(TingTable { finite_size: Some(size), ..TingTable::default() }), None),
+            false => (None, Some(HertzTable { finite_size: Some(size) })),
+        };
+        let model = ModelTable { ting, hertz, ..ModelTable::default() };
+        Ok(case.edited(|file| file.model = Some(model))?)
+    };
+    let sized: Case = with_size(true)?;
+    match Reduced::new(sized.scene()) {
+        Ok(_) => Ok(sized),
+        Err(_) => with_size(false),
+    }
+}
+
+fn relaxes(body: &Body) -> bool {
+    body.material().is_some_and(|material| material.relaxation().is_some())
+}
+
+/// Returns the results of the model at a speed, m/s, without adhesion.
+fn computed(case: &Case, speed: f64) -> Result<Computed, LawFault> {
+    let scene = case.scene();
+    let is_law = matches!(scene.model(), ModelChoice::Law { .. });
+    if let Some(flow) = computed_flow(scene, speed).filter(|_| !is_law) {
+        let error = Some(flow.quantities.restitution * flow.errors[0]);
+        return Ok(Computed { speed, quantities: flow.quantities, error });
+    }
+    let reduced = Reduced::new(scene).map_err(|refusal| refusal.in_case(case))?;
+    let impact = reduced.impact(speed)?;
+    let quantities = impact.quantities(impact.peak_pressure.unwrap_or(f64::NAN));
+    Ok(Computed { speed, quantities, error: Reduced::model_error(scene, speed) })
+}
+
+/// Returns the law of a case that dents at the middle of two speeds (m/s), and its flow stress at both; `None` if nothing dents.
+fn dents(case: &Case, speeds: [f64; 2]) -> Result<Option<(Reduced, [f64; 2])>, LawFault> {
+    let scene = case.scene();
+    let law = match scene.model() {
+        ModelChoice::Law { law, .. } => law.clone(),
+        _ if speeds.iter().any(|speed| computed_flow(scene, *speed).is_some()) => {
+            LawInput { family: LawFamily::MeanPressure, values: Vec::new() }
+        }
+        _ => return Ok(None),
+    };
+    let family = law.family;
+    let tolerance = fem_case::defaults::LAW_TOLERANCE;
+    let model = ModelChoice::Law { law, end_rule: EndRule::ZeroForce, tolerance };
+    let scene = scene.clone().with_model(model);
+    let at = |speed: f64| {
+        let scene = scene.touching_at(speed).unwrap_or_else(|| scene.clone());
+        Reduced::new(&scene).map_err(|refusal| LawFault::from(refusal.in_case(case)))
+    };
+    let strength = |speed: f64| {
+        let index = family.strength_parameter().unwrap_or_default();
+        Ok::<_, LawFault>(at(speed)?.law_numbers().map_or(1.0, |numbers| numbers[index]))
+    };
+    let [slow, fast] = speeds;
+    Ok(Some((at((slow * fast).sqrt())?, [strength(slow)?, strength(fast)?])))
+}
+
+/// Checks that the header holds what a case has beside flow.
+fn check_dents(scene: &Scene) -> Result<(), LawFault> {
+    let unheld = |message: &str, help: &str| Err(LawFault::Unheld(message.into(), help.into()));
+    if scene.bodies().iter().any(relaxes) {
+        return unheld(
+            "the header holds relaxation or plastic flow, and this case has both",
+            "remove the relaxation of the bodies, or write effects.plastic_flow = \"off\"",
+        );
+    }
+    if scene.bodies().iter().any(|body| body.plate().is_some()) {
+        return unheld(
+            "the header holds a plate or plastic flow, and this case has both",
+            "write half_space = {} in place of the plate, or effects.plastic_flow = \"off\"",
+        );
+    }
+    if scene.friction() > 0.0 {
+        return unheld(
+            "the header holds friction or plastic flow, and this case has both",
+            "write contact.friction = 0, or effects.plastic_flow = \"off\"",
+        );
+    }
+    Ok(())
+}
+
+/// Returns the pull-off force of the bodies, N, and the distance over which it takes the energy that parts them, m.
+fn adhesion_of(scene: &Scene, pair: &Pair) -> Option<[f64; 2]> {
+    (restitution_with_adhesion(scene, STILL, 1.0) < 1.0).then(|| {
+        let adhesion = Adhesion::new(pair, scene.work_of_adhesion().value());
+        let force = adhesion.pull_off_force();
+        [force, adhesion.separation_energy() / force]
+    })
+}
+
+/// Returns the errors of a law beside a computed impact: of e, and of T and F relative.
+fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
+    let Computed { speed, quantities, .. } = at;
+    let hertz = HertzImpact::new(pair, *speed).map_or(f64::NAN, |hertz| hertz.contact_time());
+    let time = if quantities.contact_time.is_finite() { quantities.contact_time } else { hertz };
+    let (mass, step) = (pair.effective_mass(), time / N_STEPS);
+    let [e, contact_time, force] = match repulsion {
+        Repulsion::Springs(springs, _) => springs.impact(mass, *speed, step),
+        Repulsion::Hertz(numbers) => {
+            verlet_impact(mass, *speed, step, |[approach, _]| elastic(numbers, approach))
+        }
+        Repulsion::Dents(table) => {
+            let mut spot = table.spot(*speed);
+            verlet_impact(mass, *speed, step, |[approach, _]| spot.force(approach))
+        }
+    };
+    let of_time = match quantities.contact_time.is_finite() && contact_time.is_finite() {
+        true => (contact_time / time - 1.0).abs(),
+        false => 0.0,
+    };
+    let of_force = (force / quantities.peak_force - 1.0).abs();
+    [(e - quantities.restitution).abs(), of_time, of_force]
+}
+
+/// Returns F = K u^(3/2) of an approach, m, in N.
+fn elastic([stiffness, first, second]: &[f64; 3], approach: f64) -> f64 {
+    let approach = approach.max(0.0);
+    let hertz = approach / (1.0 + first * approach.sqrt() + second * approach);
+    stiffness * hertz * hertz.sqrt()
+}
