@@ -151,7 +151,8 @@ impl ContactSprings {
         let middle = |ends: &[f64]| 0.5 * (ends[0] + ends[1]);
         let places: Vec<f64> = edges.windows(2).map(middle).collect();
         let unit = 2.0 * pair.contact_modulus();
-        let hertz: Vec<f64> = places.iter().map(|place| hertz_at(*place, pair, correction)).collect();
+        let hertz: Vec<f64> =
+            places.iter().map(|place| hertz_at(*place, pair, correction)).collect();
         let added = |u: &f64| u + u * u.sqrt() * correction.at(*u);
         Ok(Self {
             gaps: hertz.iter().map(added).collect(),
@@ -186,7 +187,8 @@ impl ContactSprings {
     /// disc that sticks, 2G* a, with the displacement by the bodies' finite size in series.
     pub fn shear_stiffnesses(&self, modulus: f64, size: Option<&FiniteSize>) -> Vec<f64> {
         let whole = |radius: f64| {
-            let added = size.filter(|_| radius > 0.0).map_or(0.0, |size| size.added_approach(1.0, radius));
+            let added =
+                size.filter(|_| radius > 0.0).map_or(0.0, |size| size.added_approach(1.0, radius));
             let half_space = 2.0 * modulus * radius;
             half_space / (1.0 + half_space * added)
         };
@@ -215,7 +217,8 @@ impl ContactSprings {
         [approach, rate]: [f64; 2],
         time_step: f64,
     ) -> f64 {
-        let factors: Vec<(f64, f64)> = self.terms.iter().map(|term| factors(term, time_step)).collect();
+        let factors: Vec<(f64, f64)> =
+            self.terms.iter().map(|term| factors(term, time_step)).collect();
         let gained = self.terms.iter().zip(&factors).map(|(term, (_, gain))| term.weight * gain);
         let stiffness = self.equilibrium_weight + gained.sum::<f64>();
         let mut indentation = approach - state.deflection;

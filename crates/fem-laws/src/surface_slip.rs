@@ -140,9 +140,14 @@ impl SurfaceSlip {
 
     /// Returns κβ, 1/m, with the sign of c.
     pub fn mismatch(&self) -> f64 {
-        let [lower, upper] = self.faces.each_ref().map(SlipSurface::normal);
-        let modulus = 2.0 / (lower + upper);
-        PI * modulus * self.compliance()
+        self.curvature * self.dundurs_beta()
+    }
+
+    /// Returns Dundurs' second parameter β before any relaxation, positive if the upper body's tangential compliance is the larger one.
+    pub fn dundurs_beta(&self) -> f64 {
+        let [lower, upper] = self.faces.each_ref().map(SlipSurface::tangential);
+        let compliance: f64 = self.faces.iter().map(SlipSurface::normal).sum();
+        0.5 * (upper - lower) / compliance
     }
 
     /// Returns the signed changes by slip of an elastic impact whose largest contact radius (m) is given.

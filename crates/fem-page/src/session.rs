@@ -1,13 +1,12 @@
 //! A session: one case after the other, each computed in pieces at the pace of the caller.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use fem::results::CostSummary;
 use fem::schema::ModelTable;
 use fem::{
-    Case, CaseError, Collision, HistoryRow, OutputRequest, OutputRequestError, PairCache,
-    SharedModels, Simulation, SnapshotRequest, Stepper, Summary,
+    Case, CaseError, Collision, HistoryRow, OutputRequest, OutputRequestError, SharedModels,
+    Simulation, SnapshotRequest, Stepper, Summary,
 };
 
 use crate::charts::Charts;
@@ -45,9 +44,7 @@ pub struct Session {
 
 impl Default for Session {
     fn default() -> Self {
-        let pairs = || Arc::new(PairCache::with_max_bytes(MAX_KEPT));
-        let shared =
-            SharedModels { pairs: pairs(), reference_pairs: pairs(), ..SharedModels::default() };
+        let shared = SharedModels::with_max_bytes(MAX_KEPT);
         Self { shared, simulation: None, ask: None, stepper: None, collision: None }
     }
 }

@@ -37,7 +37,8 @@ pub use models::method::{
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
     AutoMethod, Condensed, CondensedMethod, ContactPatch, ExpectedError, Explicit, ExplicitMethod,
-    METHODS, ModelCandidate, Reduced, ReducedMethod, method_of, selected_model,
+    METHODS, ModelCandidate, ObliqueRebound, ObliqueResponse, Reduced, ReducedMethod, method_of,
+    selected_model,
 };
 pub use plan::body_source::build_meshes;
 pub use plan::contact_method::{ContactNoiseAdvice, contact_method, ignored_method_warning};

@@ -194,6 +194,21 @@ impl Scene {
         (speed > 0.0 && speed.is_finite()).then_some(scene)
     }
 
+    /// Returns this scene with a coefficient of friction and the tangential velocity (m/s) of its ball: the upper body, if that is a sphere.
+    #[must_use]
+    pub fn rubbing(mut self, friction: f64, velocity: f64) -> Self {
+        let ball = self.ball();
+        self.friction = friction;
+        self.bodies[ball].tangential_velocity = velocity;
+        self.bodies[1 - ball].tangential_velocity = 0.0;
+        self
+    }
+
+    /// Returns the index of the body whose rebound is measured: the upper one, if that is a sphere, or else the lower one.
+    pub fn ball(&self) -> usize {
+        usize::from(self.bodies[1].diameter().is_some())
+    }
+
     /// Returns the scene with the equilibrium moduli, without element sizes; `None` if a body has no equilibrium modulus.
     pub fn at_equilibrium(&self) -> Option<Self> {
         let mut scene = self.clone();

@@ -140,7 +140,9 @@ impl PairLaw {
     /// Returns the programs beside the header, by the names of their files.
     pub fn hosts(&self) -> Vec<(String, String)> {
         let blocks = HOSTS.split("\n@ ").skip(1).filter_map(|block| block.split_once('\n'));
-        blocks.map(|(name, text)| (self.filled(name).trim().to_string(), self.filled(text))).collect()
+        blocks
+            .map(|(name, text)| (self.filled(name).trim().to_string(), self.filled(text)))
+            .collect()
     }
 
     /// Returns a template filled with the values of this law.
@@ -211,13 +213,22 @@ impl PairLaw {
         let column = |k: usize| listed(self.curve.iter().map(|point| point[k]));
         let speed = |k: Option<&[f64; 3]>| digits(k.map_or(0.0, |point| point[0]));
         let keeps = match self.repulsion {
-            Repulsion::Dents(_) => "The dent stays: call it, and not _begin, where the next contact is at the same spot.",
+            Repulsion::Dents(_) => {
+                "The dent stays: call it, and not _begin, where the next contact is at the same spot."
+            }
             _ => "The next one may begin at once.",
         };
         let mut values = BTreeMap::from([
             ("name", self.name.clone()),
             ("NAME", self.name.to_uppercase()),
-            ("head", self.head.iter().map(|line| format!(" * {line}").trim_end().to_string()).collect::<Vec<_>>().join("\n")),
+            (
+                "head",
+                self.head
+                    .iter()
+                    .map(|line| format!(" * {line}").trim_end().to_string())
+                    .collect::<Vec<_>>()
+                    .join("\n"),
+            ),
             ("memory", self.memory().to_string()),
             ("steps", "steps that the head names".to_string()),
             ("keeps", keeps.to_string()),

@@ -94,11 +94,14 @@ impl Samples {
             self.weights[k] * own[part]
         };
         let a = DMatrix::from_fn(2 * SAMPLES, times.len() + 1, element);
-        let b = DVector::from_fn(2 * SAMPLES, |row, _| self.weights[row / 2] * self.moduli[row / 2][row % 2]);
+        let b = DVector::from_fn(2 * SAMPLES, |row, _| {
+            self.weights[row / 2] * self.moduli[row / 2][row % 2]
+        });
         let weights = non_negative(&a, &b);
         let error = (a * &weights - b).amax();
         let terms = times.iter().zip(weights.iter().skip(1)).filter(|(_, weight)| **weight > 0.0);
-        let terms = terms.map(|(time, weight)| PronyTerm { weight: *weight, relaxation_time: *time });
+        let terms =
+            terms.map(|(time, weight)| PronyTerm { weight: *weight, relaxation_time: *time });
         (error, weights[0], terms.collect())
     }
 }

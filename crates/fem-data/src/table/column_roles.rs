@@ -6,6 +6,8 @@ use std::sync::LazyLock;
 
 use fem_case::parse_quantity;
 
+use super::rebounds::REBOUNDS;
+
 /// The end of a column's name that is a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct UnitSuffix {
@@ -20,7 +22,7 @@ pub(super) struct UnitSuffix {
 /// Endings with the units that they stand for. If two fit the same name, the longer one comes first. A name that ends in `_min` may
 /// be a least value. Scales of temperature have an offset, which their reader adds.
 const ENDINGS: &str = "_cm_s=cm/s _mm_s=mm/s _um_s=um/s _km_h=km/h _ft_s=ft/s _in_s=in/s _mph=mph _m_s=m/s \
-    _hz=Hz _rad_s=rad/s _per_s=1/s _us=us _ms=ms _ns=ns _s=s _deg=deg _mrad=1e-3 _khz=kHz _rad=rad \
+    _hz=Hz _rad_s=rad/s _per_s=1/s _rpm=rpm _us=us _ms=ms _ns=ns _s=s _deg=deg _mrad=1e-3 _khz=kHz _rad=rad \
     _percent=% _mm=mm _cm=cm _um=um _m=m _kn=kN _mn=mN _n=N _newton=N _pa=Pa _kpa=kPa _mpa=MPa _gpa=GPa \
     _psi=psi _ksi=ksi _dyn_cm2=dyn/cm^2 _minutes=min _hours=h _px=px _pixel=px _pixels=px _degc= _degf= _kelvin=";
 
@@ -30,6 +32,7 @@ static SUFFIXES: LazyLock<Vec<UnitSuffix>> = LazyLock::new(|| {
         let (scale, dimension) = match unit {
             // A rate of phase counts in cycles per second, like a frequency.
             "rad/s" => (0.5 / PI, [0, 0, -1]),
+            "rpm" => (1.0 / 60.0, [0, 0, -1]),
             // The scale of a picture is not in its names.
             "px" => (1.0, PIXELS),
             "1e-3" => (1e-3, [0; 3]),
@@ -54,9 +57,10 @@ const FORCE_WORDS: [&str; 3] = ["force", "load", "kraft"];
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
 /// Endings of names with units, separated by bars, that the units of a case do not have or that mean another there.
-const OTHER_UNITS: [(&str, &str); 9] = [
+const OTHER_UNITS: [(&str, &str); 10] = [
     ("_rad_s", "rad/s|rad s^-1|rad·s⁻¹"),
     ("_per_s", "1/s|s^-1|s⁻¹"),
+    ("_rpm", "rpm"),
     ("_degc", "C|°C|º C|ºC|degC"),
     ("_kelvin", "K"),
     ("_degf", "°F|degF|F"),
@@ -229,6 +233,7 @@ pub(super) fn column_names() -> Vec<&'static str> {
         "time time_uncertainty height height_uncertainty force signal",
         "frequency angular_frequency temperature storage_modulus loss_modulus complex_modulus relaxation_modulus tan_delta \
          phase e g",
+        REBOUNDS,
     ];
     names.iter().flat_map(|names| names.split(' ')).collect()
 }

@@ -21,6 +21,7 @@ mod library_data;
 mod moduli;
 mod pairs;
 mod quantity;
+mod rebounds;
 mod restitution_table;
 mod restitutions;
 mod sweep_table;
@@ -33,6 +34,7 @@ pub use library_data::{is_of_library, library_table};
 pub use moduli::{Modulus, ModulusPoint, ModulusTable, TestKind};
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, Measured, NotMeasured, impossible_restitution, parse_measured};
+pub use rebounds::{Incidence, Rebound, ReboundQuantity, Rebounds};
 pub use restitutions::{
     ACCEPTED_BOUNDS, MAX_RESTITUTION, MAX_UNCERTAINTY, Point, Restitutions, UncertaintyError,
     UnevenUncertainties,

@@ -112,6 +112,11 @@ impl TangentialContact {
         Self { friction, ..self }
     }
 
+    /// Returns Coulomb's coefficient of friction.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
     /// Returns m_t, kg.
     pub fn mass(&self) -> f64 {
         self.mass
@@ -130,17 +135,6 @@ impl TangentialContact {
     /// Returns the impact of a patch with a velocity (m/s) under the loads of the normal contact.
     pub fn impact(&self, normal: &NormalSprings, velocity: f64) -> TangentialImpact {
         Sliding::new(self, normal, velocity).run()
-    }
-
-    /// Returns the error of [`TangentialContact::impact`]'s velocity (m/s) by the numbers of springs and steps: the change from half as
-    /// many, of which a quarter is expected.
-    pub fn discretisation_error(
-        &self,
-        normal: &NormalSprings,
-        fine: &TangentialImpact,
-        velocity: f64,
-    ) -> f64 {
-        (Sliding::new(self, &normal.coarser(), velocity).run().velocity - fine.velocity).abs()
     }
 }
 

@@ -212,9 +212,9 @@ impl NormalSprings {
         self.at(step).iter().zip(&self.lengths).map(|(load, length)| load * length).sum()
     }
 
-    /// Returns every second spring at every second step, or the springs of every second pressure of a mesh, from which the error of
-    /// the discretisation is found.
-    pub(super) fn coarser(&self) -> Self {
+    /// Returns every second spring at every second step, or the springs of every second pressure of a mesh: of the change of an impact
+    /// on them a quarter is the error of its discretisation, and changes by other causes take a quarter of the time.
+    pub fn coarser(&self) -> Self {
         if let Some(coarse) = &self.coarse {
             return *coarse.clone();
         }

@@ -97,6 +97,8 @@ class Fit(dict[str, Any]):
         Raises:
             ImportError: matplotlib is not installed.
         """
+        if "curves" not in self:
+            raise bad_input("a fit of the friction has no curves to plot", "its rows are in fit[\"measured\"]")
         curves, measured = self["curves"], self["measured"]
         lines = [(law["law"], curves["speed_m_s"], law["restitution"]) for law in curves["laws"]]
         errors = measured["restitution_uncertainty"]
@@ -164,7 +166,8 @@ def fit(
 
     Args:
         case: the two bodies.
-        data: restitutions, and their uncertainties if there are any.
+        data: restitutions, and their uncertainties if there are any; or rebounds over the impact angle, which give the
+            coefficient of friction: ``{"impact_angle_deg": [20, 40], "rebound_angle_deg": [12, 33]}``.
         law: the law; by default that of the case's model, or ``"all"``: the one that explains the data best.
         free: parameters to fit; by default the damping.
         param: values of other parameters, and starts of the free ones.
@@ -189,19 +192,30 @@ def fit(
 
 def invert(
     case: Case,
-    restitution: Quantity,
+    restitution: Quantity | None = None,
     *,
+    rebound_angle: str | None = None,
+    contact_patch_rebound: str | None = None,
+    spin_after: Quantity | None = None,
+    tangential_velocity_after: Quantity | None = None,
+    impact_angle: str | None = None,
     law: Law | None = None,
     find: str | None = None,
     param: Mapping[str, Quantity] | None = None,
     end: End | None = None,
     speed: Quantity | None = None,
 ) -> dict[str, Any]:
-    """Finds the parameter of a law that gives a restitution at one speed.
+    """Finds the parameter of a law that gives a restitution at one speed, or the friction that gives a rebound.
 
     Args:
         case: the two bodies.
         restitution: between 0 and 1; with an uncertainty, ``"0.92 ± 0.01"``, so has the parameter.
+        rebound_angle: angle of the rebounding ball against the axis, ``"12 ± 0.5 deg"``: the result is then that of
+            ``fit`` to rebounds, with ``friction`` in ``parameters``.
+        contact_patch_rebound: the angle of its contact patch.
+        spin_after: its spin.
+        tangential_velocity_after: its tangential velocity.
+        impact_angle: the angle before; by default that of the case.
         law: the law; by default that of the case's model, or else all.
         find: the parameter; by default the damping.
         param: values of other parameters.

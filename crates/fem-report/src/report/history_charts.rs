@@ -1,5 +1,6 @@
 //! Charts over time: one result next to Hertz' curves, or several results over each other.
 
+use fem::sweep::column_words;
 use fem_case::engineering::show;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
@@ -274,8 +275,22 @@ pub fn normalised_chart(results: &[StoredResult]) -> Option<Chart> {
     Some(with_hertz(chart, hertz_points, "Hertz".to_string()))
 }
 
+/// Returns the chart of an oblique impact over time ([`oblique_chart`]) or, of several results, the velocity of the patch after over
+/// before; `None` of head-on impacts.
+pub fn oblique_charts(results: &[StoredResult]) -> Option<Chart> {
+    if let [only] = results {
+        return oblique_chart(only);
+    }
+    let point = |result: &StoredResult| {
+        Some((result.number(&["psi_before"])?, result.number(&["psi_after"])?))
+    };
+    let points: Vec<_> = results.iter().filter_map(point).collect();
+    let [x, y] = ["psi_before", "psi_after"].map(|column| Axis::new(column_words(column)));
+    (!points.is_empty()).then(|| Chart::new(x, y).with(Curve::points("computed", points)))
+}
+
 /// Returns the chart of both contact forces, and the share of the contact that sticks, over time; `None` of a head-on impact.
-pub fn oblique_chart(result: &StoredResult) -> Option<Chart> {
+pub(super) fn oblique_chart(result: &StoredResult) -> Option<Chart> {
     let time = TimeAxis::of(std::slice::from_ref(result), None);
     let column = |name: &str| time.column(result, name);
     let (normal, across) = (column("contact_force_n"), column("tangential_force_n"));

@@ -28,13 +28,14 @@ use crate::answer::bounce_answer;
 use crate::number_text::{elapsed, grouped, power_of_ten};
 use cards::Card;
 use effects::EffectEntry;
+use history_charts::oblique_chart;
 
 pub use comparison::comparison_page;
 pub use contours::{contour_of_dent, contour_of_result, contours_at_peak};
 pub use effects::is_numerical;
 pub use history_charts::{
     Quantity, bounce_charts, energy_chart, history_chart, loop_chart, normalised_chart,
-    oblique_chart,
+    oblique_charts,
 };
 pub use pressure_chart::pressure_chart;
 pub use stored_result::{Columns, ReportError, StoredResult};

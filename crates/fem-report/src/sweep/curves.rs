@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use fem::results::Status;
-use fem::sweep::Row;
+use fem::sweep::{Row, column_below};
 use fem_case::Sweep;
 use fem_collision::QuantityOfInterest;
 use serde_json::Value;
@@ -35,6 +35,8 @@ pub struct PanelValues {
     pub is_bound: bool,
     /// The value of Hertz' closed form.
     pub hertz: Option<f64>,
+    /// The value that takes the place of the varied key.
+    pub below: Option<f64>,
 }
 
 impl PanelValues {
@@ -43,7 +45,7 @@ impl PanelValues {
         let own = summary[quantity.key()].as_f64();
         let error = error_parts(summary, quantity).sum();
         let is_bound = status(summary, quantity) == Status::Bound;
-        Self { own, error, is_bound, hertz: None }
+        Self { own, error, is_bound, ..Self::default() }
     }
 }
 
@@ -62,7 +64,8 @@ impl FigurePoint {
         let panel = |column: &&str| {
             let quantity = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == *column);
             let Some(quantity) = quantity else {
-                return PanelValues { own: number(column), ..PanelValues::default() };
+                let below = column_below(column).and_then(number);
+                return PanelValues { own: number(column), below, ..PanelValues::default() };
             };
             // Hertz' restitution is 1.
             let has_hertz = quantity != QuantityOfInterest::Restitution;
@@ -109,8 +112,8 @@ pub fn curves(
             curves.push(SweepCurve { label, place: own, number, points, bounds, reference });
             curves.len() - 1
         });
-        let x = choice.x.values[elements[choice.x.axis]];
         let values = point.values[panel];
+        let x = values.below.unwrap_or(choice.x.values[elements[choice.x.axis]]);
         if let Some(y) = values.own {
             curves[place].points.push((x, y, values.error.unwrap_or(0.0)));
             curves[place].bounds.extend(values.is_bound.then_some((x, y)));

@@ -1,8 +1,9 @@
 //! Labels of the axes and curves of a sweep's figure.
 
 /// Keys and their names with symbols.
-const ROLES: [(&str, &str); 12] = [
+const ROLES: [(&str, &str); 13] = [
     ("approach_speed", "impact speed v"),
+    ("impact_angle", "impact angle θ"),
     ("diameter", "diameter D"),
     ("density", "density ρ"),
     ("youngs_modulus", "Young's modulus E"),

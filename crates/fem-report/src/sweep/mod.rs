@@ -8,7 +8,7 @@ mod convergence;
 mod curves;
 mod labels;
 
-use fem::sweep::{column_unit, column_words};
+use fem::sweep::{column_below, column_unit, column_words};
 use fem_case::Sweep;
 use fem_figure::{Axis, COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
 
@@ -115,7 +115,10 @@ fn value_chart(
         _ if choice.x.is_counted || choice.x.unit == Some("°") => f64::INFINITY,
         _ => DECADE,
     };
-    let x = horizontal_axis(sweep, choice, x, logarithmic_from);
+    let x = match column_below(column) {
+        Some(below) => fitting_axis(column_words(below), column_unit(below), x, f64::INFINITY),
+        None => horizontal_axis(sweep, choice, x, logarithmic_from),
+    };
     let y = own().map(|point| point.1).chain(reference().map(|point| point.1));
     let y = fitting_axis(column_words(column), column_unit(column), y, DECADE);
     // Error bars of many curves would cover each other.

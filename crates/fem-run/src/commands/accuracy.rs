@@ -60,6 +60,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (budget, quiet) = (arguments.budget, arguments.output.quiet);
     let case = arguments.input.load_within(&arguments.within)?;
     let variants = Variants::of(&case)?;
+    if case.scene().is_oblique() {
+        standard_output::note(
+            "the study is that of the impact along the axis, which friction does not alter: run the case for its tangential results",
+        );
+    }
     let identity = Identity::of(&case)?;
     let stem = arguments.input.stem();
     let digest = digest_of(["accuracy".as_bytes(), identity.case.as_bytes()]);

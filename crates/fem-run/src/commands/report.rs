@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use fem_case::readable_name;
 use fem_report::report::{
     Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_dent,
-    contour_of_result, energy_chart, history_chart, loop_chart, oblique_chart, pressure_chart,
+    contour_of_result, energy_chart, history_chart, loop_chart, oblique_charts, pressure_chart,
     report_page,
 };
 use fem_report::section_view::mirrored;
@@ -128,7 +128,7 @@ pub enum Figure {
     Profile,
     /// Height and velocity over several contacts, with gravity
     Bounces,
-    /// Both contact forces and the sticking part of the contact over time, of an oblique impact
+    /// Both contact forces and the sticking part of the contact over time, of an oblique impact; of several impacts ψ₂ over ψ₁
     Oblique,
     /// Contact force over the approach; the area of the loop is the energy that is lost
     Loop,
@@ -155,7 +155,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         Figure::Pressure => history_chart(&records, Quantity::Pressure),
         Figure::Energy => energy_chart(of_one("energy")?),
         Figure::Profile => pressure_chart(&records),
-        Figure::Oblique => oblique_chart(of_one("oblique")?),
+        Figure::Oblique => oblique_charts(&records),
         Figure::Loop => loop_chart(&records),
     };
     let svg = match figure {

@@ -181,7 +181,7 @@ impl Regime {
     /// # Errors
     /// Those of [`Estimate::of`], as a fault of the scene; masses out of the range of f64.
     pub fn of(scene: Scene) -> Result<Self, Rejection> {
-        Self::checked(scene, KnownImpacts::default())
+        Self::with_known(scene, KnownImpacts::default())
     }
 
     /// Estimates a variant of the scene, with the impacts that are known already.
@@ -189,7 +189,7 @@ impl Regime {
     /// # Errors
     /// Those of [`Regime::of`].
     pub(crate) fn variant(&self, scene: Scene) -> Result<Self, Rejection> {
-        Self::checked(scene, self.estimate.impacts.clone())
+        Self::with_known(scene, self.estimate.impacts.clone())
     }
 
     /// Returns the estimate of the scene at an approach speed, m/s.
@@ -203,7 +203,11 @@ impl Regime {
         }
     }
 
-    fn checked(scene: Scene, known: KnownImpacts) -> Result<Self, Rejection> {
+    /// Estimates a scene with the impacts that are known already.
+    ///
+    /// # Errors
+    /// Those of [`Regime::of`].
+    pub(crate) fn with_known(scene: Scene, known: KnownImpacts) -> Result<Self, Rejection> {
         let rejected = |why: String| {
             Rejection::new("body", format!("the collision cannot be estimated: {why}"))
                 .with_help("check sizes, densities, moduli and speeds, and their units")

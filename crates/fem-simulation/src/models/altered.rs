@@ -14,7 +14,7 @@ use crate::rejection::Rejection;
 
 /// What alters a collision.
 pub(super) trait Alteration: Clone + Debug + Send + Sync + 'static {
-    /// Returns whether it needs the contact as springs ([`Model::normal_springs`]).
+    /// Returns whether it needs the contact as springs ([`Model::collide_on_springs`]).
     fn needs_springs(&self) -> bool {
         false
     }
@@ -61,12 +61,21 @@ impl<A: Alteration> Model for Altered<A> {
         request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        let pressures = request.pressures || self.alteration.needs_springs();
-        let request = OutputRequest { pressures, ..request.clone() };
-        let collision = self.model.collide(approach, &request, monitor);
-        let needs = self.alteration.needs_springs();
-        let springs = needs.then(|| self.model.normal_springs(&collision)).flatten();
+        let (collision, springs) = match self.alteration.needs_springs() {
+            true => self.model.collide_on_springs(approach, request, monitor),
+            false => (self.model.collide(approach, request, monitor), None),
+        };
         self.alteration.applied(collision, springs)
+    }
+
+    fn collide_on_springs(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> (Collision, Option<NormalSprings>) {
+        let (collision, springs) = self.model.collide_on_springs(approach, request, monitor);
+        (self.alteration.applied(collision, springs.clone()), springs)
     }
 
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
@@ -88,10 +97,6 @@ impl<A: Alteration> Model for Altered<A> {
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         self.model.static_contact(force)
-    }
-
-    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
-        self.model.normal_springs(collision)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

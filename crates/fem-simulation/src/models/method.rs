@@ -8,12 +8,17 @@ use std::fmt;
 use std::sync::Arc;
 
 use fem_case::{CaseFile, Scene};
-use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
+use fem_collision::{
+    Approach, Collision, Monitor, OutputRequest, QuantityOfInterest, StaticContact, Stop,
+};
 use fem_laws::NormalSprings;
 use fem_laws::laws::ContactLaw;
 use fem_mesh::SphereMesh;
 
-use crate::effects::{Effect, EffectDecisions, Support};
+use crate::effects::{
+    Effect, EffectDecision, EffectDecisions, EffectStatus, Support, effect_named,
+};
+use crate::estimate::quasi_static::KnownImpacts;
 use crate::estimate::{Estimate, Regime};
 use crate::models::stepper::{RestartState, SingleStep, Stepper};
 use crate::plan::Plan;
@@ -89,15 +94,24 @@ pub struct SharedModels {
     pub pairs: Arc<PairCache>,
     /// Condensed pairs of reference runs, which estimate errors.
     pub reference_pairs: Arc<PairCache>,
+    /// Ting's impacts, so that a sweep over the impact angle computes its impact along the axis once.
+    pub(crate) impacts: KnownImpacts,
     /// Whether models are asked for quantities alone, and keep no factors for fields.
     pub is_of_reference_runs: bool,
 }
 
 impl SharedModels {
+    /// Returns caches of condensed pairs with a limit of memory, in bytes each.
+    pub fn with_max_bytes(max_bytes: usize) -> Self {
+        let pairs = || Arc::new(PairCache::with_max_bytes(max_bytes));
+        Self { pairs: pairs(), reference_pairs: pairs(), ..Self::default() }
+    }
+
     /// Returns what reference runs share.
     pub(crate) fn for_reference_runs(&self) -> Self {
         let pairs = || self.reference_pairs.clone();
-        Self { pairs: pairs(), reference_pairs: pairs(), is_of_reference_runs: true }
+        let impacts = self.impacts.clone();
+        Self { pairs: pairs(), reference_pairs: pairs(), impacts, is_of_reference_runs: true }
     }
 }
 
@@ -154,10 +168,15 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// A contact that the model cannot compute.
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection>;
 
-    /// Returns the contact of a collision of this model as independent springs, made with
-    /// [`OutputRequest::pressures`]; `None` of a model without a distribution of its pressure.
-    fn normal_springs(&self, _: &Collision) -> Option<NormalSprings> {
-        None
+    /// Computes a collision as [`Model::collide`] does, and its contact as independent springs; `None` of a model without a
+    /// distribution of its pressure, or of a collision that did not end.
+    fn collide_on_springs(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> (Collision, Option<NormalSprings>) {
+        (self.collide(approach, request, monitor), None)
     }
 
     /// Returns the meshes; `None` for a wall, or in a model without elements.
@@ -203,6 +222,25 @@ pub struct ModelSetup {
     pub cost: Cost,
     /// Setup of the elements, for a model with meshes.
     pub elements: Option<ElementSetup>,
+}
+
+impl ModelSetup {
+    /// Returns the model-form error of the restitution by the effects whose names `counts` accepts; `None` if one is unknown.
+    pub(crate) fn restitution_error(
+        &self,
+        scene: &Scene,
+        counts: impl Fn(&str) -> bool,
+    ) -> Option<f64> {
+        let of_effect = |decision: &EffectDecision| {
+            let effect = effect_named(decision.name)?;
+            let neglect_error = effect.neglect_error(scene, &self.estimate);
+            let status = EffectStatus { is_lacking: decision.is_lacking, neglect_error };
+            let error = effect.model_form_error(scene, &self.estimate, &status);
+            error.size(QuantityOfInterest::Restitution)
+        };
+        let decisions = self.decisions.all.iter();
+        decisions.filter(|decision| counts(decision.name)).map(of_effect).sum()
+    }
 }
 
 impl ModelSetup {

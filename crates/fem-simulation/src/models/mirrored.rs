@@ -96,6 +96,20 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
+    fn collide_on_springs(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> (Collision, Option<NormalSprings>) {
+        let half = match half_of(approach) {
+            Ok(half) => half,
+            Err(stop) => return (Collision::stopped(*approach, stop), None),
+        };
+        let (collision, springs) = self.half.collide_on_springs(&half, &in_half(request), monitor);
+        (MirroredFrame::of(approach).collision(collision), springs)
+    }
+
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
         match half_of(approach) {
             Ok(half) => Some(whole_of(*approach, self.half.start(&half, &in_half(request))?)),
@@ -112,10 +126,6 @@ impl<M: Model> Model for Mirrored<M> {
     /// Gravity makes bodies differ, so it never meets mirror symmetry.
     fn static_contact(&self, _: f64) -> Result<Option<StaticContact>, Rejection> {
         Ok(None)
-    }
-
-    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
-        self.half.normal_springs(collision)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

@@ -8,6 +8,7 @@ pub(crate) mod explicit;
 pub(crate) mod method;
 mod mirrored;
 mod oblique;
+mod oblique_response;
 mod own_frame;
 mod reduced;
 pub(crate) mod stepper;
@@ -31,6 +32,7 @@ pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
 pub use oblique::ContactPatch;
+pub use oblique_response::{ObliqueRebound, ObliqueResponse};
 pub use reduced::{Reduced, ReducedMethod};
 
 /// All methods, from the cheapest to the most expensive, and the one that selects among them.
@@ -71,7 +73,15 @@ impl ComputedScene {
     /// # Errors
     /// A scene that an effect rejects, or whose closed-form estimates are not finite.
     pub fn of(given: &Scene) -> Result<Self, Rejection> {
-        let given = Regime::of(given.clone())?;
+        Self::sharing(given, &SharedModels::default())
+    }
+
+    /// Returns [`ComputedScene::of`] with the impacts that other scenes know.
+    ///
+    /// # Errors
+    /// Those of [`ComputedScene::of`].
+    pub fn sharing(given: &Scene, shared: &SharedModels) -> Result<Self, Rejection> {
+        let given = Regime::with_known(given.clone(), shared.impacts.clone())?;
         let SimplifiedScene { scene, transformations } = SimplifiedScene::of(&given)?;
         let regime = match transformations.is_empty() {
             true => given.clone(),

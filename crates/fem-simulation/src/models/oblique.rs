@@ -123,21 +123,58 @@ impl ObliqueBodies {
         Ok(Self { scene: scene.clone(), contact, other_size, inverse_masses })
     }
 
+    /// Returns the bodies with another coefficient of friction.
+    pub fn with_friction(&self, friction: f64) -> Self {
+        let [contact, other_size] =
+            [&self.contact, &self.other_size].map(|it| it.clone().with_friction(friction));
+        Self { contact, other_size, ..self.clone() }
+    }
+
+    /// Returns the tangential contact.
+    pub fn contact(&self) -> &TangentialContact {
+        &self.contact
+    }
+
+    /// Returns the scene of the bodies.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Returns the velocity of the contact patch of the lower body relative to that of the upper one, m/s, if the ball has a tangential
+    /// velocity (m/s) relative to the other body, and both have the spins of the scene.
+    pub fn patch_velocity(&self, ball_velocity: f64) -> f64 {
+        let turning: f64 = self.scene.bodies().iter().map(turning).sum();
+        side(&self.scene) * ball_velocity - turning
+    }
+
+    /// Returns tangential velocity (m/s, relative to the other body) and spin (rad/s) of the ball after an impulse, N s.
+    pub fn ball_after(&self, velocity: f64, impulse: f64) -> (f64, f64) {
+        let ball = self.scene.ball();
+        let relative =
+            side(&self.scene) * velocity - impulse * self.inverse_masses.iter().sum::<f64>();
+        (
+            side(&self.scene) * relative,
+            self.scene.bodies()[ball].spin() + self.lever(ball) * impulse,
+        )
+    }
+
+    /// Returns R/I of a body, 1/(kg m); 0 of a flat one.
+    fn lever(&self, k: usize) -> f64 {
+        self.inverse_masses[k] / (INERTIA * self.scene.bodies()[k].radius())
+    }
+
     /// Returns the velocities and spins of both bodies after a tangential impulse, N s.
     fn after(&self, impulse: f64) -> ([f64; 2], [f64; 2]) {
         let bodies = self.scene.bodies();
         let [lower, upper] = self.inverse_masses;
         let velocities = bodies.each_ref().map(Body::tangential_velocity);
-        // R/I, 0 of a flat body.
-        let lever = |k: usize| self.inverse_masses[k] / (INERTIA * bodies[k].radius());
-        let spins = [0, 1].map(|k| bodies[k].spin() + lever(k) * impulse);
+        let spins = [0, 1].map(|k| bodies[k].spin() + self.lever(k) * impulse);
         ([velocities[0] - lower * impulse, velocities[1] + upper * impulse], spins)
     }
 
     /// Returns the velocity of each body's surface at the contact before the impact, m/s.
     fn surfaces(&self) -> [f64; 2] {
         let [lower, upper] = self.scene.bodies();
-        let turning = |body: &Body| body.diameter().map_or(0.0, |d| 0.5 * d * body.spin());
         [lower.tangential_velocity() - turning(lower), upper.tangential_velocity() + turning(upper)]
     }
 
@@ -162,7 +199,7 @@ impl ObliqueBodies {
     }
 
     /// Returns m*, kg, of the motion along the axis.
-    fn normal_mass(&self) -> f64 {
+    pub fn normal_mass(&self) -> f64 {
         self.inverse_masses.iter().sum::<f64>().recip()
     }
 
@@ -178,32 +215,31 @@ impl ObliqueBodies {
     }
 
     /// Returns the errors of the velocity of the rebounding patch, m/s.
-    fn errors(
+    pub fn errors(
         &self,
-        collision: &Collision,
+        speed: f64,
         springs: &NormalSprings,
         impact: &TangentialImpact,
         before: f64,
     ) -> TangentialErrors {
-        let change = |contact: &TangentialContact| {
-            (contact.impact(springs, before).velocity - impact.velocity).abs()
-        };
+        let coarse = springs.coarser();
+        let after = |contact: &TangentialContact| contact.impact(&coarse, before).velocity;
+        let own = after(&self.contact);
+        let change = |contact: &TangentialContact| (after(contact) - own).abs();
         let share = if self.contact.has_finite_size() { SECOND_ORDER } else { 1.0 };
-        let of_size = share * change(&self.other_size);
         let coupling = FrictionEffect::coupling(&self.scene);
-        let sliding_share = before.abs() * coupling.stiffness_ratio
-            / (self.scene.friction() * collision.approach.speed());
-        let model = (!coupling.is_unknown(sliding_share)).then_some(of_size);
+        let psi = before.abs() * coupling.stiffness_ratio / (self.contact.friction() * speed);
+        let is_known = !coupling.is_unknown(psi);
         let friction = self.scene.friction();
         let input = self.scene.uncertain_inputs().iter().find(|it| it.key == "contact.friction");
-        let of_friction = |to: f64| self.contact.clone().with_friction(to).impact(springs, before);
+        let of_friction = |to: f64| after(&self.contact.clone().with_friction(to));
         TangentialErrors {
-            discretisation: Some(self.contact.discretisation_error(springs, impact, before)),
+            discretisation: Some((own - impact.velocity).abs()),
             per_stiffness: change(&self.contact.clone().stiffer_by(STIFFER)) / STIFFER,
-            model,
+            model: is_known.then(|| share * change(&self.other_size)),
             input: input.map(|it| {
                 let [low, high] = [friction - it.uncertainty, friction + it.uncertainty];
-                0.5 * (of_friction(high).velocity - of_friction(low.max(0.0)).velocity).abs()
+                0.5 * (of_friction(high) - of_friction(low.max(0.0))).abs()
             }),
         }
     }
@@ -236,7 +272,9 @@ impl Alteration for ObliqueBodies {
         let normal = mass * (1.0 + restitution) * collision.approach.speed();
         let (velocities, spins) = self.after(impulse);
         let errors = match (&springs, &impact) {
-            (Some(springs), Some(impact)) => self.errors(&collision, springs, impact, before),
+            (Some(springs), Some(impact)) => {
+                self.errors(collision.approach.speed(), springs, impact, before)
+            }
             _ => TangentialErrors {
                 discretisation: Some(0.0),
                 model: Some(0.0),
@@ -281,6 +319,16 @@ impl Alteration for ObliqueBodies {
         };
         whole.map_samples(row, |fields| fields)
     }
+}
+
+/// Returns the velocity of a body's surface by its spin, m/s.
+fn turning(body: &Body) -> f64 {
+    body.diameter().map_or(0.0, |diameter| 0.5 * diameter * body.spin())
+}
+
+/// Returns the sign of the ball's velocity in that of the lower body relative to the upper one.
+fn side(scene: &Scene) -> f64 {
+    if scene.ball() == 0 { 1.0 } else { -1.0 }
 }
 
 /// Returns the tangential contact at a time after first touch (s), linear between the steps.

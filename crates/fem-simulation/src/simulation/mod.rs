@@ -72,7 +72,7 @@ impl Simulation {
     ) -> Result<Self, CaseError> {
         let scene = case.scene().clone().with_refinement(refinement);
         let of_case = |rejection: Rejection| rejection.in_case(&case);
-        let computed = ComputedScene::of(&scene).map_err(of_case)?;
+        let computed = ComputedScene::sharing(&scene, shared).map_err(of_case)?;
         let model: Arc<dyn Model> = Arc::from(computed.model(shared).map_err(of_case)?);
         let setup = computed.setup_of(model.as_ref()).map_err(of_case)?;
         let plan = setup.elements.as_ref().map(|elements| &elements.plan);

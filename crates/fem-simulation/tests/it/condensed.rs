@@ -2,7 +2,7 @@
 
 use fem_case::Case;
 use fem_collision::{Collision, QuantityOfInterest};
-use fem_simulation::{Condensed, Model, PairCache, SharedModels, Simulation};
+use fem_simulation::{Condensed, Model, SharedModels, Simulation};
 
 use crate::scene::{GLASS, case_of, collision_of, refused_of, simulation_of};
 
@@ -89,8 +89,7 @@ fn nine_pairings_need_nine_factors_in_any_order() {
         nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, shared)).collect()
     };
     let [slow, fast] = [SharedModels::default(), SharedModels::default()];
-    let tight =
-        SharedModels { pairs: PairCache::with_max_bytes(1).into(), ..SharedModels::default() };
+    let tight = SharedModels::with_max_bytes(1);
     let (by_speed, by_pairing) = (run(true, &slow), run(false, &fast));
     assert_eq!((slow.pairs.n_made(), fast.pairs.n_made()), (9, 9));
     assert_eq!(slow.pairs.n_kept(), 9);

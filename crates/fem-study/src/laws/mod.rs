@@ -43,6 +43,7 @@
 mod chosen_law;
 mod computed_curve;
 mod dem_export;
+mod friction_fit;
 mod impact_curve;
 mod law_fault;
 mod law_fit;
@@ -59,6 +60,7 @@ pub use dem_export::{DemExport, FittedLaw};
 pub use fem_data::estimate::{
     ParameterError, check_value, find_parameter, loss_parameter, parse_value,
 };
+pub use friction_fit::{FrictionFit, FrictionRow, PatchMotion};
 pub use impact_curve::ImpactCurve;
 pub use law_fault::LawFault;
 pub use law_fit::LawFit;

@@ -16,8 +16,8 @@ use fem_laws::{
     PairRelaxation, SpringProfile, radiation_damping, verlet_impact,
 };
 use fem_simulation::{
-    Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces, restitution_with_adhesion,
-    surfaces_slip,
+    Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces,
+    restitution_with_adhesion, surfaces_slip,
 };
 
 use super::chosen_law::plate_of;
@@ -95,7 +95,8 @@ impl LawExport {
         let curve: Vec<[f64; 3]> = source.computed.iter().map(point).collect();
         let widest = source.computed.iter().map(|at| at.quantities.max_contact_radius);
         let contact_ratio = widest.fold(0.0, f64::max) / pair.effective_radius();
-        let law = PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
+        let law =
+            PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
         let errors_all = [0, 1, 2].map(largest);
         let impacts = source.computed.iter().map(|at| at.quantities).collect();
         let model = source.model_words();
@@ -114,7 +115,11 @@ impl LawExport {
         let clean = |text: &str| text.replace("*/", "* /").replace(char::is_control, " ");
         let bodies = scene.bodies().each_ref().map(|body| {
             let size = body.diameter().map_or(String::new(), |d| format!(" {}", show(d, "m")));
-            format!("{}{size} of {}", body.name(), body.material_name().unwrap_or("nothing that yields"))
+            format!(
+                "{}{size} of {}",
+                body.name(),
+                body.material_name().unwrap_or("nothing that yields")
+            )
         });
         let [slow, fast] = [computed[0].speed, computed[computed.len() - 1].speed];
         let [of_e, of_time, of_force] = self.errors;
@@ -125,11 +130,15 @@ impl LawExport {
             format!("Stands for: {}.", self.model),
             format!(
                 "Checked from {} to {}, contact radius up to {} of R*, 100 steps per contact: e within {},",
-                show(slow, "m/s"), show(fast, "m/s"), number(self.contact_ratio, 2), number(of_e, 2)
+                show(slow, "m/s"),
+                show(fast, "m/s"),
+                number(self.contact_ratio, 2),
+                number(of_e, 2)
             ),
             format!(
                 "contact time within {} % and largest force within {} % of that model. Take 50 steps or more.",
-                number(100.0 * of_time, 2), number(100.0 * of_force, 2)
+                number(100.0 * of_time, 2),
+                number(100.0 * of_force, 2)
             ),
             String::new(),
             "   speed, m/s         e   +/- law   +/- model   contact time, s".to_string(),
@@ -141,7 +150,10 @@ impl LawExport {
         }));
         head.extend([
             String::new(),
-            format!("Made by fem-run {}: fem-run export CASE --law. Licence: MIT or Apache-2.0.", env!("CARGO_PKG_VERSION")),
+            format!(
+                "Made by fem-run {}: fem-run export CASE --law. Licence: MIT or Apache-2.0.",
+                env!("CARGO_PKG_VERSION")
+            ),
         ]);
         head
     }
@@ -188,7 +200,9 @@ impl Source {
             (None, ModelChoice::Ting { finite_size, .. }) => {
                 format!("Ting's model{}", if *finite_size { " with finite size" } else { "" })
             }
-            (None, ModelChoice::Hertz { finite_size: true }) => "Hertz' model with finite size".to_string(),
+            (None, ModelChoice::Hertz { finite_size: true }) => {
+                "Hertz' model with finite size".to_string()
+            }
             _ => "Hertz' model".to_string(),
         }
     }
@@ -199,7 +213,9 @@ impl Source {
         }
         let scene = self.case.scene();
         let finite_size = match scene.model() {
-            ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => *finite_size,
+            ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => {
+                *finite_size
+            }
             _ => false,
         };
         let is_ting = matches!(scene.model(), ModelChoice::Ting { .. });
@@ -238,7 +254,8 @@ impl Source {
             true => plate.mobility(&hertz),
             false => plate.thin_mobility(),
         });
-        let springs = springs.on_plate(mobility).radiating(radiating.iter().map(radiation_damping).sum());
+        let springs =
+            springs.on_plate(mobility).radiating(radiating.iter().map(radiation_damping).sum());
         let shear = match scene.friction() > 0.0 {
             true => {
                 let (modulus, relaxation) = PairRelaxation::tangential(lower, upper)?;
@@ -292,7 +309,10 @@ fn with_model(case: &Case) -> Result<Case, LawFault> {
             return Ok(case.clone());
         }
         ModelChoice::Law { law, .. } => {
-            let message = format!("the header holds the computed pair, and law {} is a formula", law.family.name());
+            let message = format!(
+                "the header holds the computed pair, and law {} is a formula",
+                law.family.name()
+            );
             let help = "remove [model], or export the case without this option";
             return Err(LawFault::Unheld(message, help.into()));
         }
@@ -400,7 +420,9 @@ fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
     let (mass, step) = (pair.effective_mass(), time / N_STEPS);
     let [e, contact_time, force] = match repulsion {
         Repulsion::Springs(springs, _) => springs.impact(mass, *speed, step),
-        Repulsion::Hertz(numbers) => verlet_impact(mass, *speed, step, |[approach, _]| elastic(numbers, approach)),
+        Repulsion::Hertz(numbers) => {
+            verlet_impact(mass, *speed, step, |[approach, _]| elastic(numbers, approach))
+        }
         Repulsion::Dents(table) => {
             let mut spot = table.spot(*speed);
             verlet_impact(mass, *speed, step, |[approach, _]| spot.force(approach))

@@ -47,7 +47,7 @@ impl Columns {
 }
 
 /// Endings of column names and their units; if two end the same name, the longer one comes first.
-const ENDINGS: [(&str, &str); 15] = [
+const ENDINGS: [(&str, &str); 16] = [
     ("_m_s2", "m/s^2"),
     ("_m_s", "m/s"),
     ("_kg_m3", "kg/m^3"),
@@ -61,6 +61,7 @@ const ENDINGS: [(&str, &str); 15] = [
     ("_s", "s"),
     ("_m", "m"),
     ("_j", "J"),
+    ("_deg", "°"),
     ("_bytes", "bytes"),
     ("_number", ""),
 ];
@@ -100,8 +101,25 @@ pub fn column_unit(column: &str) -> &'static str {
     ending(column).map_or("", |(_, unit)| unit)
 }
 
+/// Titles of columns whose names alone do not say what they are.
+const TITLES: [(&str, &str); 5] = [
+    ("tangential_restitution", "tangential restitution of the patch e_t"),
+    ("contact_patch_rebound_deg", "rebound angle of the contact patch"),
+    ("impulse_ratio", "tangential over normal impulse"),
+    ("psi_before", "velocity of the patch before ψ₁"),
+    ("psi_after", "velocity of the patch after ψ₂"),
+];
+
+/// Returns the column over which a column is drawn in place of the varied key: the rebound of the patch over its approach.
+pub fn column_below(column: &str) -> Option<&'static str> {
+    (column == "psi_after").then_some("psi_before")
+}
+
 /// Returns a column's name as text, without its unit.
 pub fn column_words(column: &str) -> String {
+    if let Some((_, title)) = TITLES.iter().find(|(known, _)| *known == column) {
+        return (*title).to_string();
+    }
     let bare = ending(column).map_or(column, |(ending, _)| &column[..column.len() - ending.len()]);
     bare.replace('_', " ")
 }

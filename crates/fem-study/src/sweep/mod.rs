@@ -20,7 +20,7 @@ mod runner;
 mod variations;
 
 pub use check::{Checked, check, check_some};
-pub use columns::{Columns, column_unit, column_words, key_column};
+pub use columns::{Columns, column_below, column_unit, column_words, key_column};
 pub use key_numbers::{KeyNumbers, NumberColumn};
 pub use members::load;
 pub use members::{Member, Members};

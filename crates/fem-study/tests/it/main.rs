@@ -2,5 +2,6 @@
 
 mod accuracy;
 mod calibrate;
+mod friction;
 mod pair_export;
 mod pair_law;

@@ -313,6 +313,8 @@ fn columns_have_words_and_units() {
         (column_words("restitution"), column_unit("restitution")),
         ("restitution".into(), "")
     );
+    assert_eq!(column_words("psi_after"), "velocity of the patch after ψ₂");
+    assert_eq!(column_unit("contact_patch_rebound_deg"), "°");
     // An energy that no row has gets no column.
     let mut columns = Columns::default();
     let has_own = |columns: &Columns| columns.names().contains(&"energy_bulk_viscosity_j");

@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use fem::fit::dem::CODE_LAWS;
 use fem::fit::{Free, Problem};
-use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
-use fem::measured::{Restitutions, Table};
+use fem::laws::{ChosenLaw, FrictionFit, LawFit, LawRanking, family_of, parse_value};
+use fem::measured::{Rebounds, Restitutions, Table};
 use fem_case::Case;
 use fem_laws::LawFamily;
 use fem_report::law_figures::{fit_figure, histories_figure};
 use serde_json::Value;
 
 use super::fit_text::{answer, fit_text, next_steps, ranking_csv, ranking_text};
+use super::friction;
 use crate::arguments::case::{CaseArguments, stem_of};
 use crate::arguments::data::RestitutionArguments;
 use crate::arguments::law::{
@@ -23,10 +24,11 @@ use crate::text::failure::Failure;
 use crate::text::run_report::Detail;
 use crate::text::standard_output;
 
-/// Fit parameters of a contact law to restitutions over speed
+/// Fit parameters of a contact law to restitutions over speed, or the friction to rebounds over the angle
 ///
 /// The case gives the two bodies, a CSV file the restitutions. Writes fit.json, residuals.csv, fit.svg and
-/// histories.svg, and prints values with their confidence intervals.
+/// histories.svg, and prints values with their confidence intervals. Rebound angles, spins or tangential velocities
+/// over the impact angle give the coefficient of friction instead, with the model of the case.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -34,7 +36,8 @@ pub struct Arguments {
     /// Restitutions: a CSV file with the columns speed_m_s (or speed_cm_s) and restitution, or lib:ice for
     /// those of the materials library
     ///
-    /// A column restitution_uncertainty weights them. The sweep.csv of a sweep over speeds has this form.
+    /// A column restitution_uncertainty weights them. The sweep.csv of a sweep over speeds has this form. For the
+    /// friction: impact_angle_deg, and rebound_angle_deg, spin_after_rad_s or tangential_velocity_after_m_s.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
     #[command(flatten)]
@@ -47,7 +50,7 @@ pub struct Arguments {
     #[arg(long = "for", value_name = "CODE", conflicts_with = "law",
         value_parser = CODE_LAWS.map(|(code, _)| code))]
     code: Option<String>,
-    /// Parameters to fit, such as a,n [default: the damping parameter]
+    /// Parameters to fit, such as a,n, or friction [default: the damping parameter]
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     free: Vec<String>,
     #[command(flatten)]
@@ -97,6 +100,9 @@ fn parse_wanted(name: &str) -> Result<Wanted, String> {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
     let table = arguments.restitutions.read(&arguments.data)?;
+    if finds_friction(arguments, &table)? {
+        return with_friction(&case, &table, |fit| write_friction(arguments, &case, fit));
+    }
     fitted(arguments, &case, &table, |found| write(arguments, &case, found))
 }
 
@@ -104,7 +110,57 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
     let table = arguments.restitutions.name_columns(table.clone())?;
     let name = arguments.input.name();
+    if finds_friction(arguments, &table)? {
+        return with_friction(case, &table, |fit| value_of(&fit.numbers(&name)));
+    }
     fitted(arguments, case, &table, |found| value_of(&found.fitted.numbers(&name)))
+}
+
+/// Returns whether the coefficient of friction is fitted to a table of rebounds; options of laws are rejected beside it.
+fn finds_friction(arguments: &Arguments, table: &Table) -> Result<bool, Failure> {
+    let of_laws = [
+        ("--law", arguments.law.is_some()),
+        ("--for", arguments.code.is_some()),
+        ("--param", !arguments.values.param.is_empty()),
+        ("--end", arguments.values.end.is_some()),
+        ("--bounds", !arguments.bounds.is_empty()),
+        ("--profile", arguments.profile.is_some()),
+        ("--compare", !arguments.compare.is_empty()),
+        ("--contact-time", arguments.contact_time),
+        ("--robust", arguments.robust),
+    ];
+    let given = of_laws.iter().find(|(_, is_given)| *is_given);
+    let is_asked = friction::is_asked(&arguments.free, table, given.is_some())?;
+    match given.filter(|_| is_asked) {
+        Some((option, _)) => {
+            let message = format!("{option} belongs to a law, and --free friction fits none");
+            Err(Failure::bad_input(message).with_help("leave one of the two out"))
+        }
+        None => Ok(is_asked),
+    }
+}
+
+/// Fits the coefficient of friction, and applies `then` to the result.
+fn with_friction<T>(
+    case: &Case,
+    table: &Table,
+    then: impl FnOnce(&FrictionFit<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let data = Rebounds::read(table)?;
+    then(&FrictionFit::of(case, &data)?)
+}
+
+fn write_friction(
+    arguments: &Arguments,
+    case: &Case,
+    fit: &FrictionFit<'_>,
+) -> Result<(), Failure> {
+    let from_case = Some((&arguments.input, case));
+    let origin = arguments.restitutions.origin("fit", from_case, Some(&arguments.data));
+    let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", origin)?;
+    output.write_table("residuals.csv", &FrictionFit::RESIDUAL_COLUMNS, fit.residuals());
+    standard_output::warn(fit.warnings());
+    output.publish(&fit.numbers(&arguments.input.name()), |_| friction::text(fit))
 }
 
 struct Found<'a> {

@@ -2,13 +2,15 @@
 
 use fem::fit::cradle::Measured;
 use fem::fit::{FitError, InputPart};
-use fem::laws::{LawFault, LawInversion, family_of, needs_more, strength_words};
+use fem::laws::{FrictionFit, LawFault, LawInversion, family_of, needs_more, strength_words};
+use fem::measured::Rebounds;
 use fem_case::Case;
 use fem_case::engineering::{number, show};
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
 
 use super::fit_text::{relative, with_error};
+use super::friction::{self, ReboundArguments};
 use crate::arguments::case::CaseArguments;
 use crate::arguments::law::{
     LawArguments, find_key, parse_family, parse_measured_share, parse_speed,
@@ -16,7 +18,7 @@ use crate::arguments::law::{
 use crate::text::standard_output;
 use crate::text::{Failure, headed, show_value};
 
-/// Find the parameter of a law that gives a restitution at one speed
+/// Find the parameter of a law that gives a restitution, or the friction that gives a rebound angle
 ///
 /// The case gives the two bodies and the speed. For the law `ting` the parameter is the decay rate of the
 /// bodies' relaxation. Without --law, the case's law is used, or else all laws that need only one
@@ -27,8 +29,12 @@ pub struct Arguments {
     input: CaseArguments,
     /// The restitution, between 0 and 1, or in %; with its standard uncertainty, '0.92 ± 0.01', the
     /// parameter has one too
+    ///
+    /// Beside a rebound with friction it is the restitution along the axis, in place of the computed one.
     #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_measured_share)]
-    restitution: Measured,
+    restitution: Option<Measured>,
+    #[command(flatten)]
+    rebound: ReboundArguments,
     /// The law [default: that of the case's model, or else all]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<LawFamily>,
@@ -50,7 +56,17 @@ type Answer = (LawFamily, Result<LawInversion, String>);
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
-    let (speed, answers) = answers(arguments, &case)?;
+    if let Some(data) = rebound(arguments, &case)? {
+        let fit = FrictionFit::of(&case, &data)?;
+        standard_output::warn(fit.warnings());
+        return if arguments.quiet {
+            Ok(())
+        } else {
+            standard_output::print(&friction::text(&fit))
+        };
+    }
+    let restitution = restitution(arguments)?;
+    let (speed, answers) = answers(arguments, &case, restitution)?;
     if arguments.quiet {
         return Ok(());
     }
@@ -77,14 +93,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     standard_output::print(&format!(
         "restitution {} at {}\n\n{}{parts}{notes}",
-        arguments.restitution.value,
+        restitution.value,
         show(speed, "m/s"),
         headed("law|parameter|>value|>SI|>contact time", rows)
     ))
 }
 
 pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
-    let (speed, answers) = answers(arguments, case)?;
+    if let Some(data) = rebound(arguments, case)? {
+        return Ok(FrictionFit::of(case, &data)?.numbers(&arguments.input.name()));
+    }
+    let restitution = restitution(arguments)?;
+    let (speed, answers) = answers(arguments, case, restitution)?;
     let mut solutions = Vec::new();
     let mut unsolved = serde_json::Map::new();
     for (family, answer) in answers {
@@ -111,15 +131,31 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
             }
         }
     }
-    let wanted = arguments.restitution.value;
+    let wanted = restitution.value;
     Ok(
         json!({ "restitution": wanted, "speed_m_s": speed, "solutions": solutions, "unsolved": unsolved }),
     )
 }
 
-fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Failure> {
+/// Returns the rebound that gives the coefficient of friction, if there is one.
+fn rebound(arguments: &Arguments, case: &Case) -> Result<Option<Rebounds>, Failure> {
+    arguments.rebound.rebound(case, arguments.speed, arguments.restitution)
+}
+
+fn restitution(arguments: &Arguments) -> Result<Measured, Failure> {
+    arguments.restitution.ok_or_else(|| {
+        Failure::bad_input("neither --restitution nor a rebound is given")
+            .with_help("write --restitution 0.92, or --rebound-angle '12 deg' for the friction")
+    })
+}
+
+fn answers(
+    arguments: &Arguments,
+    case: &Case,
+    restitution: Measured,
+) -> Result<(f64, Vec<Answer>), Failure> {
     let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
-    let wanted = arguments.restitution.value;
+    let wanted = restitution.value;
     if !(wanted > 0.0 && wanted < 1.0) {
         let message =
             format!("--restitution must be greater than 0 and less than 1, found {wanted}");
@@ -142,7 +178,7 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
     families.sort_by_key(|family| !(yields && *family == LawFamily::MeanPressure));
     let mut answers = Vec::new();
     for family in families {
-        match solve(arguments, case, family, speed) {
+        match solve(arguments, case, family, (speed, restitution)) {
             Ok(solved) => answers.push((family, Ok(solved))),
             Err(failure) if law.is_some() => return Err(failure),
             // Among all laws, those that need more parameters are left out.
@@ -165,14 +201,14 @@ fn solve(
     arguments: &Arguments,
     case: &Case,
     family: LawFamily,
-    speed: f64,
+    (speed, restitution): (f64, Measured),
 ) -> Result<LawInversion, Failure> {
     let law = arguments.values.choose(case, family)?;
     if let Some(key) = &arguments.find {
         find_key(family, key, "--find")?;
     }
     let key = arguments.find.as_deref();
-    let solved = LawInversion::of(&law, key, speed, arguments.restitution.value);
+    let solved = LawInversion::of(&law, key, speed, restitution.value);
     let solved = solved.map_err(|fault| match fault {
         LawFault::Fit(error @ FitError::NoSolution { .. }) if family == LawFamily::HuntCrossley => {
             Failure::bad_input(error.to_string())
@@ -186,7 +222,7 @@ fn solve(
         }
         fault => fault.into(),
     });
-    Ok(solved?.with_inputs(case, &law, arguments.restitution, arguments.speed))
+    Ok(solved?.with_inputs(case, &law, restitution, arguments.speed))
 }
 
 fn lines(solved: &LawInversion) -> Vec<[String; 5]> {

@@ -8,4 +8,5 @@ mod export_text;
 mod failures;
 pub mod fit;
 mod fit_text;
+mod friction;
 pub mod invert;

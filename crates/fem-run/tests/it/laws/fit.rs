@@ -40,6 +40,31 @@ fn measurements_of_the_library_are_data() {
     assert!(shown.contains("# Measured, bridges-1984: e = 0.32 (v / 1 cm/s)^-0.234"), "{shown}");
 }
 
+/// Rebound angles of an experiment give the friction, with the model of the case; what belongs to laws is answered.
+#[test]
+fn rebounds_give_the_coefficient_of_friction() {
+    let place = Place::with(include_str!("../../../../../validation/data/kharaz.toml"));
+    let rebounds = include_str!("../../../../../validation/data/kharaz_rebound.csv");
+    place.write("r.csv", rebounds);
+    let ran = place.succeed("fit case.toml --data r.csv --out out");
+    ran.prints("slides throughout");
+    assert!(ran.stdout.starts_with("friction = 0.09"), "{}", ran.stdout);
+    let numbers = place.json("out/fit.json");
+    assert_eq!(numbers["parameters"][0]["key"], "friction");
+    assert_eq!(numbers["regime"][0]["patch"], "slides throughout");
+    assert_eq!(place.list("out"), ["fit.json", "residuals.csv"]);
+    let fit = |options: &str| place.fails(2, ("fit case.toml --data r.csv", options));
+    fit("--free friction,a").tells("nothing is fitted beside friction");
+    fit("--free friction --law ting").tells("--law belongs to a law");
+    let invert = "invert case.toml --impact-angle '50 deg'";
+    let one = place.succeed((invert, "--rebound-angle '45 ± 0.5 deg'"));
+    one.prints("standard error");
+    place.fails(2, (invert, "--rebound-angle=-40deg")).tells("no coefficient of friction");
+    place.fails(2, invert).tells("--rebound-angle '12 deg'");
+    place.write("rolling.csv", "impact_angle_deg,rolling_friction\n20,0.1\n");
+    place.fails(2, "fit case.toml --data rolling.csv").tells("before a ball has rolled");
+}
+
 #[test]
 fn both_parameters_with_profile_and_comparison() {
     let place = ice();

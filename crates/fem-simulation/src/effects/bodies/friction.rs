@@ -40,15 +40,15 @@ impl FrictionEffect {
     /// Returns the coupling of a scene's bodies, with instantaneous moduli.
     pub(crate) fn coupling(scene: &Scene) -> Coupling {
         let of = |body: &Body| {
-            body.material().map_or([0.0; 3], |material| {
+            body.material().map_or([0.0; 2], |material| {
                 let moduli = material.instantaneous();
                 let (nu, shear) = (moduli.poissons_ratio(), moduli.shear_modulus());
-                [(1.0 - 2.0 * nu) / shear, (1.0 - nu) / shear, (1.0 - 0.5 * nu) / shear]
+                [(1.0 - nu) / shear, (1.0 - 0.5 * nu) / shear]
             })
         };
-        let [[t1, n1, s1], [t2, n2, s2]] = scene.bodies().each_ref().map(of);
+        let [[n1, s1], [n2, s2]] = scene.bodies().each_ref().map(of);
         Coupling {
-            beta: 0.5 * ((t1 - t2) / (n1 + n2)).abs(),
+            beta: scene.surface_slip().dundurs_beta().abs(),
             stiffness_ratio: (n1 + n2) / (s1 + s2),
         }
     }

@@ -335,10 +335,20 @@ impl Model for Condensed {
         self.follow(approach, relaxations, n_steps, request, &mut monitor)
     }
 
-    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
-        let record = collision.pressures.as_ref()?;
-        let (step, forces, profiles) = (record.time_step, &record.forces, &record.profiles);
-        Some(NormalSprings::of_pressures(collision.contact_time?, step, forces, profiles))
+    fn collide_on_springs(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> (Collision, Option<NormalSprings>) {
+        let request = OutputRequest { pressures: true, ..request.clone() };
+        let collision = self.collide(approach, &request, monitor);
+        let record = collision.pressures.as_ref().zip(collision.contact_time);
+        let springs = record.map(|(record, contact_time)| {
+            let (step, forces, profiles) = (record.time_step, &record.forces, &record.profiles);
+            NormalSprings::of_pressures(contact_time, step, forces, profiles)
+        });
+        (collision, springs)
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

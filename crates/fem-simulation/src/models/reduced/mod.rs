@@ -11,19 +11,14 @@ use std::fmt;
 
 use fem_case::schema::{End, HertzTable, ModelTable, StartTable, TingTable};
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
-use fem_collision::{
-    Approach, Collision, Monitor, OutputRequest, QuantityOfInterest, StaticContact, Stop,
-};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
     EndRule, FirstYield, Impact, LawError, LawInput, NormalSprings, Pair, PairRelaxation,
     StaticHertz,
 };
 
-use crate::effects::{
-    Effect, EffectDecision, EffectStatus, PlateBending, RateDependence, Support, decide,
-    effect_named,
-};
+use crate::effects::{Effect, PlateBending, RateDependence, Support, decide};
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::{Estimate, Regime};
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
@@ -151,7 +146,11 @@ impl Reduced {
 
     /// Returns the loads of the contact's springs at an approach speed, m/s; `None` of an impact that is not computed.
     pub(super) fn springs_at(&self, speed: f64) -> Option<NormalSprings> {
-        let impact = self.impact(speed).ok()?;
+        self.springs_of(&self.impact(speed).ok()?)
+    }
+
+    /// Returns the loads of the contact's springs in an impact.
+    fn springs_of(&self, impact: &Impact) -> Option<NormalSprings> {
         let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
             ModelChoice::Ting { .. } => body.material().cloned(),
             _ => Some(body.material()?.without_relaxation()),
@@ -160,7 +159,7 @@ impl Reduced {
         let relaxation = PairRelaxation::new(lower, upper).ok()?;
         let gravity = self.scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
         let (pair, law, n_steps) = (&self.pair, self.law(), NormalSprings::N_STEPS);
-        NormalSprings::of_impact(&impact, pair, &relaxation, law, gravity, n_steps).ok()
+        NormalSprings::of_impact(impact, pair, &relaxation, law, gravity, n_steps).ok()
     }
 
     /// Builds the reduced model of a scene in its regime.
@@ -234,15 +233,7 @@ impl Reduced {
     pub fn model_error(scene: &Scene, speed: f64) -> Option<f64> {
         let scene = scene.touching_at(speed)?;
         let setup = Self::new(&scene).ok()?.setup;
-        let of_effect = |decision: &EffectDecision| {
-            let effect = effect_named(decision.name)?;
-            let neglect_error = effect.neglect_error(&scene, &setup.estimate);
-            let status = EffectStatus { is_lacking: decision.is_lacking, neglect_error };
-            let error = effect.model_form_error(&scene, &setup.estimate, &status);
-            error.size(QuantityOfInterest::Restitution)
-        };
-        let decisions = setup.decisions.all.iter().filter(|it| it.name != RateDependence::NAME);
-        decisions.map(of_effect).sum()
+        setup.restitution_error(&scene, |effect| effect != RateDependence::NAME)
     }
 
     /// Returns the first yield of the body that flows under a law that dents, with that body's flow stress and without a plate;
@@ -280,20 +271,25 @@ impl Model for Reduced {
         request: &OutputRequest,
         _: &mut dyn Monitor,
     ) -> Collision {
-        if let Err(error) = request.check() {
-            return Collision::stopped(*approach, error.into());
-        }
-        match self.impact(approach.speed()) {
-            Ok(impact) => {
-                let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
-                collision::of_impact(&impact, &frame, &self.pair, self.law(), request)
-            }
-            Err(error) => Collision::stopped(*approach, stop_of(&error)),
+        match self.checked_impact(approach, request) {
+            Ok(impact) => self.collision_of(&impact, approach, request),
+            Err(stop) => Collision::stopped(*approach, stop),
         }
     }
 
-    fn normal_springs(&self, collision: &Collision) -> Option<NormalSprings> {
-        self.springs_at(collision.approach.speed())
+    fn collide_on_springs(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        _: &mut dyn Monitor,
+    ) -> (Collision, Option<NormalSprings>) {
+        match self.checked_impact(approach, request) {
+            Ok(impact) => {
+                let collision = self.collision_of(&impact, approach, request);
+                (collision, self.springs_of(&impact))
+            }
+            Err(stop) => (Collision::stopped(*approach, stop), None),
+        }
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -302,6 +298,24 @@ impl Model for Reduced {
             None => relaxed_hertz(&self.pair, self.motion.equilibrium_weight(), force),
         };
         found.map_err(|error| rejected(&self.scene, &error))
+    }
+}
+
+impl Reduced {
+    /// Returns the relative motion of a requested collision, or why there is none.
+    fn checked_impact(&self, approach: &Approach, request: &OutputRequest) -> Result<Impact, Stop> {
+        request.check()?;
+        self.impact(approach.speed()).map_err(|error| stop_of(&error))
+    }
+
+    fn collision_of(
+        &self,
+        impact: &Impact,
+        approach: &Approach,
+        request: &OutputRequest,
+    ) -> Collision {
+        let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
+        collision::of_impact(impact, &frame, &self.pair, self.law(), request)
     }
 }
 

@@ -1,5 +1,7 @@
 //! Ting's quasi-static viscoelastic half-spaces, with the spheres' finite size if asked for.
 
+use std::sync::Arc;
+
 use fem_case::Scene;
 use fem_laws::{Impact, LawError, Ting};
 
@@ -37,7 +39,10 @@ impl Motion for WithRadiation {
         let (scene, estimate) = (&regime.scene, regime.at(speed)?);
         let radiating = PartnerWaves::radiating(scene, &estimate);
         match radiating {
-            [None, None] => self.ting.impact(speed),
+            [None, None] => {
+                let known = estimate.impacts.impact(self.ting.clone(), speed)?;
+                Ok(Arc::unwrap_or_clone(known))
+            }
             _ => {
                 let finish = |ting: Ting| with_gravity(ting, scene)?.with_tolerance(*tolerance);
                 radiating_impact(scene, &radiating, &estimate, *finite_size, finish)
