@@ -25,7 +25,7 @@
 //! \alpha = \frac{1-h}{1+h}, \quad \beta = \frac{1+\alpha}2, \quad h = \frac{\Delta t}{2\tau},
 //! ```
 //!
-//! and α = 0 where h > 1. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², whatever the step, because their
+//! and α = 0 where h > 1. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², for steps of any length: their
 //! difference is ½(1−α)/(1+α) (q + q′)²: a code that integrates the motion by velocity Verlet is given no energy by a
 //! spring in contact. A plate in series moves by β∫F dt, with the mean force of the step. A half-space that radiates waves moves by −γḞ
 //! ([`crate::radiation_damping`]), which in first order is a dashpot beside the springs, of γ(dF/dδ)²; it does not pull.
@@ -77,7 +77,7 @@ pub struct SpringState {
     force: f64,
 }
 
-/// What makes a contact larger or smaller than Hertz' at the same approach.
+/// Effects that make a contact larger or smaller than Hertz' at the same approach.
 #[derive(Debug, Clone, Default)]
 pub struct SpringProfile {
     /// The finite size of the bodies.
@@ -87,17 +87,17 @@ pub struct SpringProfile {
 }
 
 impl SpringProfile {
-    /// Returns K, c₁ and c₂ of F = K u^(3/2) with u = δ/(1 + c₁ √δ + c₂ δ), exact at half and at the whole of a contact radius (m) of elastic
-    /// bodies, where it has 1e-4 of F between them for contacts of a tenth of the radius.
+    /// Returns K, c₁ and c₂ of F = K δ^(3/2)/(1 + c₁ √δ + c₂ δ), exact at half and at the whole of a contact radius (m) of elastic
+    /// bodies. Between them it has 1e-4 of F for contacts of a tenth of the radius.
     pub fn elastic(&self, pair: &Pair, relaxation: &PairRelaxation, radius: f64) -> [f64; 3] {
         let stiffness = 4.0 / 3.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
         let correction = self.correction(pair, relaxation, 0.0);
-        // (δ/u − 1)/√δ = c₁ + c₂ √δ.
+        // (K δ^(3/2)/F − 1)/√δ = c₁ + c₂ √δ.
         let [[near, first], [far, second]] = [0.5, 1.0].map(|share: f64| {
             let hertz = (share * radius).powi(2) / pair.effective_radius();
-            let added = hertz.sqrt() * correction.at(hertz);
-            let root = (hertz * (1.0 + added)).sqrt();
-            [root, added / root]
+            let added = 1.0 + hertz.sqrt() * correction.at(hertz);
+            let root = (hertz * added).sqrt();
+            [root, (added * added.sqrt() - 1.0) / root]
         });
         let slope = (second - first) / (far - near);
         [stiffness, first - slope * near, slope]
@@ -151,7 +151,8 @@ impl ContactSprings {
         let middle = |ends: &[f64]| 0.5 * (ends[0] + ends[1]);
         let places: Vec<f64> = edges.windows(2).map(middle).collect();
         let unit = 2.0 * pair.contact_modulus();
-        let hertz: Vec<f64> = places.iter().map(|place| hertz_at(*place, pair, correction)).collect();
+        let hertz: Vec<f64> =
+            places.iter().map(|place| hertz_at(*place, pair, correction)).collect();
         let added = |u: &f64| u + u * u.sqrt() * correction.at(*u);
         Ok(Self {
             gaps: hertz.iter().map(added).collect(),
@@ -186,7 +187,8 @@ impl ContactSprings {
     /// disc that sticks, 2G* a, with the displacement by the bodies' finite size in series.
     pub fn shear_stiffnesses(&self, modulus: f64, size: Option<&FiniteSize>) -> Vec<f64> {
         let whole = |radius: f64| {
-            let added = size.filter(|_| radius > 0.0).map_or(0.0, |size| size.added_approach(1.0, radius));
+            let added =
+                size.filter(|_| radius > 0.0).map_or(0.0, |size| size.added_approach(1.0, radius));
             let half_space = 2.0 * modulus * radius;
             half_space / (1.0 + half_space * added)
         };
@@ -215,7 +217,8 @@ impl ContactSprings {
         [approach, rate]: [f64; 2],
         time_step: f64,
     ) -> f64 {
-        let factors: Vec<(f64, f64)> = self.terms.iter().map(|term| factors(term, time_step)).collect();
+        let factors: Vec<(f64, f64)> =
+            self.terms.iter().map(|term| factors(term, time_step)).collect();
         let gained = self.terms.iter().zip(&factors).map(|(term, (_, gain))| term.weight * gain);
         let stiffness = self.equilibrium_weight + gained.sum::<f64>();
         let mut indentation = approach - state.deflection;

@@ -33,13 +33,13 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let folder = tempfile::tempdir().map_err(|error| StudyError::parameters(error.to_string()))?;
     let mut findings = Findings::new();
-    let impacts: Vec<[[f64; 3]; 3]> = (0..parameters.pairs)
+    let found: Vec<[[f64; 3]; 3]> = (0..parameters.pairs)
         .into_par_iter()
         .map(|seed| impacts(folder.path(), &pair(seed, false)?))
         .collect::<Result<_, StudyError>>()?;
     for (n, steps) in STEPS.iter().enumerate() {
         for (k, quantity) in ["e", "time", "force"].into_iter().enumerate() {
-            let worst = impacts.iter().map(|errors| errors[n][k]).fold(0.0, f64::max);
+            let worst = found.iter().map(|errors| errors[n][k]).fold(0.0, f64::max);
             findings.measure(format!("{quantity}.{steps}"), worst);
         }
     }
@@ -55,14 +55,16 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     findings.measure("size.e", sized.into_iter().fold(0.0, f64::max));
     let gains: Vec<[f64; 2]> = (0..parameters.walks)
         .into_par_iter()
-        .map(|seed| walk(folder.path(), &pair(10_000 + seed, seed % 2 == 0)?, seed, parameters.steps))
+        .map(|seed| {
+            walk(folder.path(), &pair(10_000 + seed, seed % 2 == 0)?, seed, parameters.steps)
+        })
         .collect::<Result<_, StudyError>>()?;
     for (k, quantity) in ["gain", "gain_across"].into_iter().enumerate() {
         findings.measure(quantity, gains.iter().map(|gain| gain[k]).fold(0.0, f64::max));
     }
     let header = ["kind of pair", "pairs", "200 steps", "100 steps", "50 steps"];
     let rows = KINDS.iter().enumerate().map(|(kind, name)| {
-        let own: Vec<_> = impacts.iter().skip(kind).step_by(KINDS.len()).collect();
+        let own: Vec<_> = found.iter().skip(kind).step_by(KINDS.len()).collect();
         let worst = |n: usize| {
             let largest = |k: usize| own.iter().map(|errors| errors[n][k]).fold(0.0, f64::max);
             let [e, time, force] = [largest(0), 100.0 * largest(1), 100.0 * largest(2)];
@@ -75,15 +77,22 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 }
 
 /// The kinds of pairs, in turn.
-const KINDS: [&str; 6] =
-    ["relaxing, shear", "relaxing, all", "relaxing, rubbing", "elastic", "denting", "elastic, on a plate"];
+const KINDS: [&str; 6] = [
+    "relaxing, shear",
+    "relaxing, all",
+    "relaxing, rubbing",
+    "elastic",
+    "denting",
+    "elastic, on a plate",
+];
 
 /// Random numbers, the same on every machine.
 struct Random(u64);
 
 impl Random {
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
@@ -104,7 +113,8 @@ fn pair(seed: u64, finite_size: bool) -> Result<LawExport, StudyError> {
     let ratio: f64 = random.between(0.01, 0.035);
     let speed = (modulus * ratio.powi(5) / (3.93 * density)).sqrt();
     let time = 1.5 * diameter * ratio * ratio / speed;
-    let mut material = format!("density = {density:e}\nyoungs_modulus = {modulus:e}\npoissons_ratio = {nu}\n");
+    let mut material =
+        format!("density = {density:e}\nyoungs_modulus = {modulus:e}\npoissons_ratio = {nu}\n");
     match kind {
         0..=2 => {
             let n_terms = random.between(1.0, 7.0) as usize;
@@ -124,7 +134,10 @@ fn pair(seed: u64, finite_size: bool) -> Result<LawExport, StudyError> {
         _ => material += "elastic = true\n",
     }
     let lower = match kind {
-        5 => format!("plate = {{ thickness = {:e} }}\nmaterial = 'm'", diameter * random.between(0.1, 0.3)),
+        5 => format!(
+            "plate = {{ thickness = {:e} }}\nmaterial = 'm'",
+            diameter * random.between(0.25, 0.6)
+        ),
         _ => format!("sphere.diameter = {partner:e}\nmaterial = 'm'"),
     };
     let friction = if kind == 2 { random.between(0.05, 1.0) } else { 0.0 };
@@ -143,15 +156,25 @@ fn pair(seed: u64, finite_size: bool) -> Result<LawExport, StudyError> {
 }
 
 /// Compiles the program of checks with a law and returns the numbers that it writes.
-fn checked(folder: &Path, law: &PairLaw, words: &[String], input: &str) -> Result<Vec<Vec<f64>>, StudyError> {
+fn checked(
+    folder: &Path,
+    law: &PairLaw,
+    words: &[String],
+    input: &str,
+) -> Result<Vec<Vec<f64>>, StudyError> {
     let failed = |error: std::io::Error| StudyError::parameters(format!("cc: {error}"));
-    let [header, source, program] =
-        [law.file_name(), format!("{}.c", law.name), law.name.clone()].map(|name| folder.join(name));
+    let [header, source, program] = [law.file_name(), format!("{}.c", law.name), law.name.clone()]
+        .map(|name| folder.join(name));
     std::fs::write(&header, law.header()).map_err(failed)?;
     std::fs::write(&source, PAIR_CHECK).map_err(failed)?;
     let mut command = Command::new("cc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-O1", "-include"]);
-    command.arg(&header).arg(format!("-DPAIR=pair_{}", law.name)).arg(&source).arg("-o").arg(&program);
+    command
+        .arg(&header)
+        .arg(format!("-DPAIR=pair_{}", law.name))
+        .arg(&source)
+        .arg("-o")
+        .arg(&program);
     if matches!(law.repulsion, Repulsion::Springs(_, Some(_))) {
         command.arg("-DFRICTION");
     }
@@ -162,12 +185,14 @@ fn checked(folder: &Path, law: &PairLaw, words: &[String], input: &str) -> Resul
     let file = header.with_extension("txt");
     std::fs::write(&file, input).map_err(failed)?;
     let input = std::fs::File::open(&file).map_err(failed)?;
-    let output = Command::new(&program).args(words).stdin(Stdio::from(input)).output().map_err(failed)?;
+    let output =
+        Command::new(&program).args(words).stdin(Stdio::from(input)).output().map_err(failed)?;
     for path in [&header, &source, &program, &file] {
         std::fs::remove_file(path).map_err(failed)?;
     }
     let text = String::from_utf8_lossy(&output.stdout);
-    let numbers = |line: &str| line.split(' ').map(|word| word.parse().unwrap_or(f64::NAN)).collect();
+    let numbers =
+        |line: &str| line.split(' ').map(|word| word.parse().unwrap_or(f64::NAN)).collect();
     Ok(text.lines().map(numbers).collect())
 }
 
@@ -176,7 +201,9 @@ fn impacts(folder: &Path, export: &LawExport) -> Result<[[f64; 3]; 3], StudyErro
     let points = || export.law.curve.iter().zip(&export.impacts).step_by(STRIDE);
     let parting = || points().filter(|(_, impact)| impact.contact_time.is_finite());
     let line = |n: usize| {
-        parting().map(move |(point, impact)| format!("{:e} {:e}\n", point[0], impact.contact_time / n as f64))
+        parting().map(move |(point, impact)| {
+            format!("{:e} {:e}\n", point[0], impact.contact_time / n as f64)
+        })
     };
     let input: String = STEPS.iter().flat_map(|n| line(*n)).collect();
     let rows = checked(folder, &export.law, &["impacts".to_string()], &input)?;
@@ -200,9 +227,12 @@ fn impacts(folder: &Path, export: &LawExport) -> Result<[[f64; 3]; 3], StudyErro
 fn walk(folder: &Path, export: &LawExport, seed: u64, steps: f64) -> Result<[f64; 2], StudyError> {
     let middle = export.law.curve.len() / 2;
     let (speed, impact) = (export.law.curve[middle][0], &export.impacts[middle]);
-    let numbers = [steps, seed as f64, impact.max_approach, 1.5 * impact.max_approach / speed, 3.0 * speed];
+    let numbers =
+        [steps, seed as f64, impact.max_approach, 1.5 * impact.max_approach / speed, 3.0 * speed];
     let words = ["walk".to_string()].into_iter().chain(numbers.iter().map(|it| format!("{it:e}")));
     let rows = checked(folder, &export.law, &words.collect::<Vec<_>>(), "")?;
-    let row = rows.first().ok_or_else(|| StudyError::parameters(format!("the walk of pair {seed} has no result")))?;
+    let row = rows
+        .first()
+        .ok_or_else(|| StudyError::parameters(format!("the walk of pair {seed} has no result")))?;
     Ok([-row[0], -row[1]])
 }

@@ -1,8 +1,8 @@
 //! A Prony series with as few terms as a range of frequencies needs.
 //!
-//! Of grids with the same number of relaxation times, evenly spaced in the logarithm, the one with the least error is taken, and of
-//! the numbers the first within the tolerance. Weights are those of non-negative least squares, so that a passive series stays
-//! passive. The error is that of the complex modulus relative to its size, over the range; a decade beyond it counts a tenth.
+//! The relaxation times are a grid, evenly spaced in the logarithm; for each number of terms the grid with the least error is taken, and
+//! the first number within the tolerance. Weights are those of non-negative least squares, so that a passive series stays passive.
+//! The error is that of the complex modulus relative to its size, over the range; a decade beyond it counts a tenth.
 
 use fem_material::{PronyTerm, maxwell_element};
 use nalgebra::{DMatrix, DVector};
@@ -94,11 +94,14 @@ impl Samples {
             self.weights[k] * own[part]
         };
         let a = DMatrix::from_fn(2 * SAMPLES, times.len() + 1, element);
-        let b = DVector::from_fn(2 * SAMPLES, |row, _| self.weights[row / 2] * self.moduli[row / 2][row % 2]);
+        let b = DVector::from_fn(2 * SAMPLES, |row, _| {
+            self.weights[row / 2] * self.moduli[row / 2][row % 2]
+        });
         let weights = non_negative(&a, &b);
         let error = (a * &weights - b).amax();
         let terms = times.iter().zip(weights.iter().skip(1)).filter(|(_, weight)| **weight > 0.0);
-        let terms = terms.map(|(time, weight)| PronyTerm { weight: *weight, relaxation_time: *time });
+        let terms =
+            terms.map(|(time, weight)| PronyTerm { weight: *weight, relaxation_time: *time });
         (error, weights[0], terms.collect())
     }
 }

@@ -226,7 +226,8 @@ impl ContactLaw {
     /// Returns the force of a first loading to an approach > 0, m, and the length (m) and the exponent of the rebound from there, in
     /// which the force is a power of the height above the dent; `None` for a law that does not dent.
     pub fn indentation(&self, approach: f64) -> Option<[f64; 3]> {
-        let rebound = self.rebound(self.elastic_plastic()?, approach, self.loading_work(0.0, approach));
+        let rebound =
+            self.rebound(self.elastic_plastic()?, approach, self.loading_work(0.0, approach));
         Some([rebound.force, rebound.length, rebound.exponent])
     }
 

@@ -215,7 +215,8 @@ pub fn computed_flow(scene: &Scene, speed: f64) -> Option<FlowingImpact> {
 pub fn radiating_half_spaces(scene: &Scene, speed: f64) -> Vec<Material> {
     let Ok(estimate) = Estimate::at(scene, speed) else { return Vec::new() };
     let radiating = PartnerWaves::radiating(scene, &estimate).into_iter().zip(scene.bodies());
-    let of_half_space = radiating.filter(|(_, body)| matches!(body.shape(), Shape::HalfSpace { .. }));
+    let of_half_space =
+        radiating.filter(|(_, body)| matches!(body.shape(), Shape::HalfSpace { .. }));
     of_half_space.filter_map(|(material, _)| material).collect()
 }
 

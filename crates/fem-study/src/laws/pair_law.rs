@@ -13,11 +13,11 @@ use fem_data::estimate::FitError;
 use fem_data::relaxation::reduced_series;
 use fem_laws::{
     Adhesion, ContactSprings, EndRule, HertzImpact, ImpactQuantities, LawFamily, LawInput, Pair,
-    PairRelaxation, SpringProfile, radiation_damping, verlet_impact,
+    PairRelaxation, SpringProfile, radiation_damping,
 };
 use fem_simulation::{
-    Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces, restitution_with_adhesion,
-    surfaces_slip,
+    Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces,
+    restitution_with_adhesion, surfaces_slip,
 };
 
 use super::chosen_law::plate_of;
@@ -35,7 +35,7 @@ const SERIES_MARGIN: f64 = 3.0;
 /// Steps per contact of the check, and those that the fastest term of a series resolves.
 const N_STEPS: f64 = 100.0;
 /// Rows of the table of a law that dents, to three times the largest approach.
-const N_KNOTS: usize = 48;
+const N_KNOTS: usize = 64;
 const DEEPER: f64 = 3.0;
 /// A speed at which any adhesion holds bodies together, m/s.
 const STILL: f64 = 1e-9;
@@ -43,7 +43,7 @@ const STILL: f64 = 1e-9;
 /// A contact law to compile and its errors beside the model that it stands for.
 #[derive(Clone, Debug)]
 pub struct LawExport {
-    /// The law.
+    /// The law and the text of its header.
     pub law: PairLaw,
     /// The model that it stands for.
     pub model: String,
@@ -95,7 +95,8 @@ impl LawExport {
         let curve: Vec<[f64; 3]> = source.computed.iter().map(point).collect();
         let widest = source.computed.iter().map(|at| at.quantities.max_contact_radius);
         let contact_ratio = widest.fold(0.0, f64::max) / pair.effective_radius();
-        let law = PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
+        let law =
+            PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
         let errors_all = [0, 1, 2].map(largest);
         let impacts = source.computed.iter().map(|at| at.quantities).collect();
         let model = source.model_words();
@@ -114,7 +115,11 @@ impl LawExport {
         let clean = |text: &str| text.replace("*/", "* /").replace(char::is_control, " ");
         let bodies = scene.bodies().each_ref().map(|body| {
             let size = body.diameter().map_or(String::new(), |d| format!(" {}", show(d, "m")));
-            format!("{}{size} of {}", body.name(), body.material_name().unwrap_or("nothing that yields"))
+            format!(
+                "{}{size} of {}",
+                body.name(),
+                body.material_name().unwrap_or("nothing that yields")
+            )
         });
         let [slow, fast] = [computed[0].speed, computed[computed.len() - 1].speed];
         let [of_e, of_time, of_force] = self.errors;
@@ -125,11 +130,15 @@ impl LawExport {
             format!("Stands for: {}.", self.model),
             format!(
                 "Checked from {} to {}, contact radius up to {} of R*, 100 steps per contact: e within {},",
-                show(slow, "m/s"), show(fast, "m/s"), number(self.contact_ratio, 2), number(of_e, 2)
+                show(slow, "m/s"),
+                show(fast, "m/s"),
+                number(self.contact_ratio, 2),
+                number(of_e, 2)
             ),
             format!(
                 "contact time within {} % and largest force within {} % of that model. Take 50 steps or more.",
-                number(100.0 * of_time, 2), number(100.0 * of_force, 2)
+                number(100.0 * of_time, 2),
+                number(100.0 * of_force, 2)
             ),
             String::new(),
             "   speed, m/s         e   +/- law   +/- model   contact time, s".to_string(),
@@ -141,7 +150,10 @@ impl LawExport {
         }));
         head.extend([
             String::new(),
-            format!("Made by fem-run {}: fem-run export CASE --law. Licence: MIT or Apache-2.0.", env!("CARGO_PKG_VERSION")),
+            format!(
+                "Made by fem-run {}: fem-run export CASE --law. Licence: MIT or Apache-2.0.",
+                env!("CARGO_PKG_VERSION")
+            ),
         ]);
         head
     }
@@ -188,7 +200,9 @@ impl Source {
             (None, ModelChoice::Ting { finite_size, .. }) => {
                 format!("Ting's model{}", if *finite_size { " with finite size" } else { "" })
             }
-            (None, ModelChoice::Hertz { finite_size: true }) => "Hertz' model with finite size".to_string(),
+            (None, ModelChoice::Hertz { finite_size: true }) => {
+                "Hertz' model with finite size".to_string()
+            }
             _ => "Hertz' model".to_string(),
         }
     }
@@ -199,7 +213,9 @@ impl Source {
         }
         let scene = self.case.scene();
         let finite_size = match scene.model() {
-            ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => *finite_size,
+            ModelChoice::Ting { finite_size, .. } | ModelChoice::Hertz { finite_size } => {
+                *finite_size
+            }
             _ => false,
         };
         let is_ting = matches!(scene.model(), ModelChoice::Ting { .. });
@@ -238,7 +254,8 @@ impl Source {
             true => plate.mobility(&hertz),
             false => plate.thin_mobility(),
         });
-        let springs = springs.on_plate(mobility).radiating(radiating.iter().map(radiation_damping).sum());
+        let springs =
+            springs.on_plate(mobility).radiating(radiating.iter().map(radiation_damping).sum());
         let shear = match scene.friction() > 0.0 {
             true => {
                 let (modulus, relaxation) = PairRelaxation::tangential(lower, upper)?;
@@ -266,8 +283,11 @@ impl Source {
         let [slow, fast] = [0, N_SPEEDS - 1].map(|k| self.computed[k]);
         let deepest = DEEPER * fast.quantities.max_approach;
         let first = law.first_yield().ok_or_else(missing)?;
-        // A law that dents at once has its table from far below the slowest contact.
-        let first = first.min(1e-3 * slow.quantities.max_approach.max(first.min(deepest)));
+        // A law without Hertz' beginning has its table from far below the slowest contact.
+        let first = match law.elastic_exponent() == 1.5 && first.is_finite() {
+            true => first,
+            false => 1e-3 * slow.quantities.max_approach,
+        };
         let log_ratio = (deepest / first).max(2.0).ln() / (N_KNOTS - 1) as f64;
         let knot = |k: usize| {
             let approach = first * (log_ratio * k as f64).exp();
@@ -292,7 +312,10 @@ fn with_model(case: &Case) -> Result<Case, LawFault> {
             return Ok(case.clone());
         }
         ModelChoice::Law { law, .. } => {
-            let message = format!("the header holds the computed pair, and law {} is a formula", law.family.name());
+            let message = format!(
+                "the header holds the computed pair, and law {} is a formula",
+                law.family.name()
+            );
             let help = "remove [model], or export the case without this option";
             return Err(LawFault::Unheld(message, help.into()));
         }
@@ -398,25 +421,11 @@ fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
     let hertz = HertzImpact::new(pair, *speed).map_or(f64::NAN, |hertz| hertz.contact_time());
     let time = if quantities.contact_time.is_finite() { quantities.contact_time } else { hertz };
     let (mass, step) = (pair.effective_mass(), time / N_STEPS);
-    let [e, contact_time, force] = match repulsion {
-        Repulsion::Springs(springs, _) => springs.impact(mass, *speed, step),
-        Repulsion::Hertz(numbers) => verlet_impact(mass, *speed, step, |[approach, _]| elastic(numbers, approach)),
-        Repulsion::Dents(table) => {
-            let mut spot = table.spot(*speed);
-            verlet_impact(mass, *speed, step, |[approach, _]| spot.force(approach))
-        }
-    };
+    let [e, contact_time, force] = repulsion.impact(mass, *speed, step);
     let of_time = match quantities.contact_time.is_finite() && contact_time.is_finite() {
         true => (contact_time / time - 1.0).abs(),
         false => 0.0,
     };
     let of_force = (force / quantities.peak_force - 1.0).abs();
     [(e - quantities.restitution).abs(), of_time, of_force]
-}
-
-/// Returns F = K u^(3/2) of an approach, m, in N.
-fn elastic([stiffness, first, second]: &[f64; 3], approach: f64) -> f64 {
-    let approach = approach.max(0.0);
-    let hertz = approach / (1.0 + first * approach.sqrt() + second * approach);
-    stiffness * hertz * hertz.sqrt()
 }

@@ -27,8 +27,18 @@ fn cases() -> Vec<(&'static str, Case)> {
     vec![
         ball("elastic", &format!("{GLASS}, {elastic}"), like, ""),
         ball("relaxing", &format!("{GLASS}, {three}"), like, ""),
-        ball("rubbing", &format!("{GLASS}, {three}"), like, "[contact]\nfriction = 0.2\n[model.ting]\nfinite_size = true"),
-        ball("plate", &format!("{GLASS}, {elastic}"), "plate = { thickness = 0.003 }\nmaterial = 'm'", ""),
+        ball(
+            "rubbing",
+            &format!("{GLASS}, {three}"),
+            like,
+            "[contact]\nfriction = 0.2\n[model.ting]\nfinite_size = true",
+        ),
+        ball(
+            "plate",
+            &format!("{GLASS}, {elastic}"),
+            "plate = { thickness = 0.003 }\nmaterial = 'm'",
+            "",
+        ),
         ball("block", &format!("{GLASS}, {elastic}"), "half_space = {}\nmaterial = 'm'", ""),
         ball("sticking", &format!("{GLASS}, {elastic}, surface_energy = 0.5"), like, ""),
         ball(
@@ -49,10 +59,12 @@ impl Compiled {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pair_law");
         std::fs::create_dir_all(&folder).unwrap();
         let law = &export.law;
-        let [header, source] = [law.file_name(), "pair_check.c".to_string()].map(|it| folder.join(it));
+        let [header, source] =
+            [law.file_name(), "pair_check.c".to_string()].map(|it| folder.join(it));
         std::fs::write(&header, law.header()).unwrap();
         std::fs::write(&source, PAIR_CHECK).unwrap();
-        let program = folder.join(format!("{}_{}", law.name, flags.concat().replace(['-', '=', ','], "_")));
+        let program =
+            folder.join(format!("{}_{}", law.name, flags.concat().replace(['-', '=', ','], "_")));
         let mut command = Command::new("cc");
         command.args(["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-O2", "-include"]);
         command.arg(&header).arg(format!("-DPAIR=pair_{}", law.name)).args(flags);
@@ -99,16 +111,21 @@ fn compiled_law_has_the_impacts_of_its_model() {
             let line = |([speed, ..], impact): &(&[f64; 3], &fem_laws::ImpactQuantities)| {
                 format!("{speed:e} {:e}\n", impact.contact_time / n_steps)
             };
-            let found = compiled.run(&words("impacts", &[]), &points.iter().map(line).collect::<String>());
+            let found =
+                compiled.run(&words("impacts", &[]), &points.iter().map(line).collect::<String>());
             for ((point, impact), row) in points.iter().zip(&found) {
                 let [_, e, time] = **point;
                 let sticks = export.law.adhesion.is_some();
                 // A pull-off force lengthens a slow contact, which the table leaves out.
                 let of_time = if sticks { 0.1 } else { 0.015 };
                 // Ting's model leaves part of the finite size out of the unloading: the claim pair_law has the limit.
-                let of_size = 0.1 * (1.0 - e) * impact.max_contact_radius / export.law.pair.effective_radius();
+                let of_size = 0.1 * (1.0 - e) * impact.max_contact_radius
+                    / export.law.pair.effective_radius();
                 assert!((row[0] - e).abs() < of_e + of_size, "{name} {n_steps} {point:?} {row:?}");
-                assert!((row[1] / time - 1.0).abs() < of_time, "{name} {n_steps} {point:?} {row:?}");
+                assert!(
+                    (row[1] / time - 1.0).abs() < of_time,
+                    "{name} {n_steps} {point:?} {row:?}"
+                );
                 let force = row[2] / impact.peak_force - 1.0;
                 assert!(sticks || force.abs() < 0.005, "{name} {n_steps} {point:?} {force}");
             }
@@ -132,7 +149,7 @@ fn compiled_springs_are_those_of_the_program() {
     }
 }
 
-/// Random motions with steps over five decades, pauses and separations, by double and single precision: no work is given, along the axis
+/// Random motions with steps over five decades, pauses and separations, by double and single precision and with sanitizers: no work is given, along the axis
 /// or across it. A motion of a 200th of the depth per step passes a spring's gap with an error of its work below 1e-4 of the whole; that
 /// of a table of forces, which is no sum of straight lines, is 1e-3.
 #[test]
@@ -141,10 +158,12 @@ fn random_motions_gain_no_energy() {
         let export = LawExport::of(&case, name, None, false).unwrap();
         let middle = &export.impacts[8];
         let speed = export.law.curve[8][0];
-        for flags in [&[][..], &["-DPAIR_REAL=float"][..]] {
+        let sanitized = &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+        for flags in [&[][..], &["-DPAIR_REAL=float"][..], sanitized] {
             let Some(compiled) = Compiled::of(&export, flags) else { return };
             for seed in 0..4 {
-                let motion = [2e4, f64::from(seed), middle.max_approach, middle.contact_time, 3.0 * speed];
+                let motion =
+                    [2e4, f64::from(seed), middle.max_approach, middle.contact_time, 3.0 * speed];
                 let least = &compiled.run(&words("walk", &motion), "")[0];
                 assert!(least[0] > -1e-3 && least[1] > -1e-3, "{name} {flags:?} {seed} {least:?}");
             }
@@ -169,7 +188,8 @@ fn friction_is_that_of_the_model_of_oblique_impacts() {
     let impact = Reduced::new(scene).unwrap().impact(0.5).unwrap();
     let relaxation = PairRelaxation::new(lower, upper).unwrap();
     let springs =
-        NormalSprings::of_impact(&impact, &pair, &relaxation, None, 0.0, NormalSprings::N_STEPS).unwrap();
+        NormalSprings::of_impact(&impact, &pair, &relaxation, None, 0.0, NormalSprings::N_STEPS)
+            .unwrap();
     let step = impact.contact_time.unwrap() / 200.0;
     for velocity in [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0] {
         let expected = contact.impact(&springs, velocity).velocity;
@@ -179,7 +199,7 @@ fn friction_is_that_of_the_model_of_oblique_impacts() {
     }
 }
 
-/// What the header cannot hold is an error with a way out.
+/// An effect that the header cannot hold is an error with a way out.
 #[test]
 fn effects_without_a_form_are_errors() {
     let (_, case) = cases().pop().unwrap();

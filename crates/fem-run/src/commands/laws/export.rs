@@ -150,7 +150,8 @@ fn exported(
 fn law(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failure> {
     let stem = arguments.input.stem();
     let identifier = stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-    let export = LawExport::of(case, &identifier, arguments.speeds, arguments.restitutions.as_elastic)?;
+    let export =
+        LawExport::of(case, &identifier, arguments.speeds, arguments.restitutions.as_elastic)?;
     Ok(Exported {
         warnings: Vec::new(),
         numbers: law_json(&export, name),

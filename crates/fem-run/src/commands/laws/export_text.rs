@@ -67,9 +67,8 @@ pub fn law_text(export: &LawExport) -> String {
         number(100.0 * time, 2),
         number(100.0 * force, 2)
     );
-    let of_point = |[speed, e, time]: &[f64; 3]| {
-        [show(*speed, "m/s"), format!("{e:.4}"), show(*time, "s")]
-    };
+    let of_point =
+        |[speed, e, time]: &[f64; 3]| [show(*speed, "m/s"), format!("{e:.4}"), show(*time, "s")];
     format!(
         "{}: a contact law in C99, {} bytes per contact\n\n{}\n\n{}",
         law.file_name(),
