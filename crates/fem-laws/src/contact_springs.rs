@@ -25,7 +25,7 @@
 //! \alpha = \frac{1-h}{1+h}, \quad \beta = \frac{1+\alpha}2, \quad h = \frac{\Delta t}{2\tau},
 //! ```
 //!
-//! and α = 0 where h > 1. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², for steps of any length: their
+//! and α = −1/2 where h > 3, so that what the rule leaves of a fast branch halves in each step. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², for steps of any length: their
 //! difference is ½(1−α)/(1+α) (q + q′)²: a code that integrates the motion by velocity Verlet is given no energy by a
 //! spring in contact. A plate in series moves by β∫F dt, with the mean force of the step. A half-space that radiates waves moves by −γḞ
 //! ([`crate::radiation_damping`]), which in first order is a dashpot beside the springs, of γ(dF/dδ)²; it does not pull.
@@ -304,7 +304,7 @@ pub fn verlet_impact(
 /// Returns the factors α and β of a term over a step, s.
 fn factors(term: &PronyTerm, time_step: f64) -> (f64, f64) {
     let half = 0.5 * time_step / term.relaxation_time;
-    let decay = ((1.0 - half) / (1.0 + half)).max(0.0);
+    let decay = ((1.0 - half) / (1.0 + half)).max(-0.5);
     (decay, 0.5 * (1.0 + decay))
 }
 

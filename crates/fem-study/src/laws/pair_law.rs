@@ -32,8 +32,9 @@ const SHRINK: f64 = 0.75;
 /// Relative tolerance of the complex modulus of the reduced series, and factor by which its frequencies reach beyond π/T of both ends.
 const SERIES_TOLERANCE: f64 = 2e-4;
 const SERIES_MARGIN: f64 = 3.0;
-/// Steps per contact of the check, and those that the fastest term of a series resolves.
+/// Steps per contact of the check, and the slowest contact time over the fastest relaxation time of a series: a sixth of 50 steps.
 const N_STEPS: f64 = 100.0;
+const FASTEST: f64 = 300.0;
 /// Rows of the table of a law that dents, to three times the largest approach.
 const N_KNOTS: usize = 64;
 const DEEPER: f64 = 3.0;
@@ -244,7 +245,7 @@ impl Source {
         let reduced = |relaxation: &PairRelaxation| {
             let range = [PI / (SERIES_MARGIN * times[0]), SERIES_MARGIN * PI / times[1]];
             let (weight, terms) = (relaxation.equilibrium_weight(), relaxation.terms());
-            reduced_series(weight, terms, range, times[0] / N_STEPS, SERIES_TOLERANCE)
+            reduced_series(weight, terms, range, times[0] / FASTEST, SERIES_TOLERANCE)
         };
         let springs = ContactSprings::new(pair, &relaxation, &profile, radii, middle)?;
         let (weight, terms) = reduced(&relaxation);
