@@ -143,7 +143,6 @@ fn pair(seed: u64, finite_size: bool) -> Result<LawExport, StudyError> {
     let friction = if kind == 2 { random.between(0.05, 1.0) } else { 0.0 };
     let model = match kind {
         0..=2 => format!("[model.ting]\nfinite_size = {finite_size}\n"),
-        4 => String::new(),
         _ => format!("[model.hertz]\nfinite_size = {finite_size}\n"),
     };
     let text = format!(

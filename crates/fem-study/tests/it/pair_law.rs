@@ -89,7 +89,8 @@ impl Compiled {
         }
         let status = command.arg(&source).arg("-o").arg(&program).arg("-lm").status();
         let Ok(status) = status else {
-            eprintln!("skipped: there is no compiler cc");
+            use std::io::Write as _;
+            writeln!(std::io::stderr(), "skipped: there is no compiler cc").unwrap();
             return None;
         };
         assert!(status.success(), "{}", law.name);
