@@ -25,7 +25,7 @@
 //! \alpha = \frac{1-h}{1+h}, \quad \beta = \frac{1+\alpha}2, \quad h = \frac{\Delta t}{2\tau},
 //! ```
 //!
-//! and α = 0 where h > 1. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², whatever the step, because their
+//! and α = −1/2 where h > 3, so that what the rule leaves of a fast branch halves in each step. With β = (1+α)/2 the work ½(q + q′)Δc is never below the gain of ½q², for steps of any length: their
 //! difference is ½(1−α)/(1+α) (q + q′)²: a code that integrates the motion by velocity Verlet is given no energy by a
 //! spring in contact. A plate in series moves by β∫F dt, with the mean force of the step. A half-space that radiates waves moves by −γḞ
 //! ([`crate::radiation_damping`]), which in first order is a dashpot beside the springs, of γ(dF/dδ)²; it does not pull.
@@ -77,7 +77,7 @@ pub struct SpringState {
     force: f64,
 }
 
-/// What makes a contact larger or smaller than Hertz' at the same approach.
+/// Effects that make a contact larger or smaller than Hertz' at the same approach.
 #[derive(Debug, Clone, Default)]
 pub struct SpringProfile {
     /// The finite size of the bodies.
@@ -87,17 +87,17 @@ pub struct SpringProfile {
 }
 
 impl SpringProfile {
-    /// Returns K, c₁ and c₂ of F = K u^(3/2) with u = δ/(1 + c₁ √δ + c₂ δ), exact at half and at the whole of a contact radius (m) of elastic
-    /// bodies, where it has 1e-4 of F between them for contacts of a tenth of the radius.
+    /// Returns K, c₁ and c₂ of F = K δ^(3/2)/(1 + c₁ √δ + c₂ δ), exact at half and at the whole of a contact radius (m) of elastic
+    /// bodies. Between them it has 1e-4 of F for contacts of a tenth of the radius.
     pub fn elastic(&self, pair: &Pair, relaxation: &PairRelaxation, radius: f64) -> [f64; 3] {
         let stiffness = 4.0 / 3.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
         let correction = self.correction(pair, relaxation, 0.0);
-        // (δ/u − 1)/√δ = c₁ + c₂ √δ.
+        // (K δ^(3/2)/F − 1)/√δ = c₁ + c₂ √δ.
         let [[near, first], [far, second]] = [0.5, 1.0].map(|share: f64| {
             let hertz = (share * radius).powi(2) / pair.effective_radius();
-            let added = hertz.sqrt() * correction.at(hertz);
-            let root = (hertz * (1.0 + added)).sqrt();
-            [root, added / root]
+            let added = 1.0 + hertz.sqrt() * correction.at(hertz);
+            let root = (hertz * added).sqrt();
+            [root, (added * added.sqrt() - 1.0) / root]
         });
         let slope = (second - first) / (far - near);
         [stiffness, first - slope * near, slope]
@@ -304,7 +304,7 @@ pub fn verlet_impact(
 /// Returns the factors α and β of a term over a step, s.
 fn factors(term: &PronyTerm, time_step: f64) -> (f64, f64) {
     let half = 0.5 * time_step / term.relaxation_time;
-    let decay = ((1.0 - half) / (1.0 + half)).max(0.0);
+    let decay = ((1.0 - half) / (1.0 + half)).max(-0.5);
     (decay, 0.5 * (1.0 + decay))
 }
 

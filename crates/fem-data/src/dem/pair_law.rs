@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use fem_laws::{ContactSprings, Pair};
+use fem_laws::{ContactSprings, Pair, verlet_impact};
 use fem_material::PronyTerm;
 
 /// A C program that checks a compiled law: its impacts, its work under random motions, and its cost.
@@ -23,7 +23,7 @@ pub struct PairLaw {
     pub name: String,
     /// The comment that opens the header, line by line.
     pub head: Vec<String>,
-    /// The bodies.
+    /// The bodies of the contact.
     pub pair: Pair,
     /// The force that parts the bodies.
     pub repulsion: Repulsion,
@@ -36,12 +36,32 @@ pub struct PairLaw {
 /// The force that parts the bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Repulsion {
-    /// Elastic bodies: F = K u^(3/2) of u = δ/(1 + c₁ √δ + c₂ δ), by K, c₁ and c₂.
+    /// Elastic bodies: F = K δ^(3/2)/(1 + c₁ √δ + c₂ δ), by K, c₁ and c₂.
     Hertz([f64; 3]),
     /// Bodies that relax, a plate, or friction.
     Springs(ContactSprings, Option<ShearSprings>),
     /// Bodies that dent.
     Dents(DentTable),
+}
+
+impl Repulsion {
+    /// Returns restitution, contact time (s) and largest force (N) of an impact at a speed (m/s) of bodies with an effective mass, kg, in
+    /// steps of a time, s, as the compiled header makes them.
+    pub fn impact(&self, mass: f64, speed: f64, step: f64) -> [f64; 3] {
+        match self {
+            Self::Springs(springs, _) => springs.impact(mass, speed, step),
+            Self::Hertz([stiffness, first, second]) => {
+                verlet_impact(mass, speed, step, |[approach, _]| {
+                    let (closed, root) = (approach.max(0.0), approach.max(0.0).sqrt());
+                    stiffness * closed * root / (1.0 + first * root + second * closed)
+                })
+            }
+            Self::Dents(table) => {
+                let mut spot = table.spot(speed);
+                verlet_impact(mass, speed, step, |[approach, _]| spot.force(approach))
+            }
+        }
+    }
 }
 
 /// The tangential springs beside the normal ones.
@@ -230,7 +250,6 @@ impl PairLaw {
                     .join("\n"),
             ),
             ("memory", self.memory().to_string()),
-            ("steps", "steps that the head names".to_string()),
             ("keeps", keeps.to_string()),
             ("radius", digits(self.pair.effective_radius())),
             ("mass", digits(self.pair.effective_mass())),
@@ -310,9 +329,9 @@ fn replaced(line: &str, values: &BTreeMap<&'static str, String>) -> String {
     text
 }
 
-/// Returns a number as C reads it, to all digits that single and double precision need in turn.
+/// Returns a number as C reads it, in ten digits.
 fn digits(value: f64) -> String {
-    format!("{value:.9e}")
+    if value.is_finite() { format!("{value:.9e}") } else { "INFINITY".to_string() }
 }
 
 fn in_one_line(values: impl Iterator<Item = f64>) -> String {

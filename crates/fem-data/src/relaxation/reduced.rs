@@ -1,8 +1,8 @@
 //! A Prony series with as few terms as a range of frequencies needs.
 //!
-//! Of grids with the same number of relaxation times, evenly spaced in the logarithm, the one with the least error is taken, and of
-//! the numbers the first within the tolerance. Weights are those of non-negative least squares, so that a passive series stays
-//! passive. The error is that of the complex modulus relative to its size, over the range; a decade beyond it counts a tenth.
+//! The relaxation times are a grid, evenly spaced in the logarithm; for each number of terms the grid with the least error is taken, and
+//! the first number within the tolerance. Weights are those of non-negative least squares, so that a passive series stays passive.
+//! The error is that of the complex modulus relative to its size, over the range; a decade beyond it counts a tenth.
 
 use fem_material::{PronyTerm, maxwell_element};
 use nalgebra::{DMatrix, DVector};

@@ -13,7 +13,7 @@ use fem_data::estimate::FitError;
 use fem_data::relaxation::reduced_series;
 use fem_laws::{
     Adhesion, ContactSprings, EndRule, HertzImpact, ImpactQuantities, LawFamily, LawInput, Pair,
-    PairRelaxation, SpringProfile, radiation_damping, verlet_impact,
+    PairRelaxation, SpringProfile, radiation_damping,
 };
 use fem_simulation::{
     Reduced, bounds_of_closed_forms, computed_flow, radiating_half_spaces,
@@ -32,10 +32,11 @@ const SHRINK: f64 = 0.75;
 /// Relative tolerance of the complex modulus of the reduced series, and factor by which its frequencies reach beyond π/T of both ends.
 const SERIES_TOLERANCE: f64 = 2e-4;
 const SERIES_MARGIN: f64 = 3.0;
-/// Steps per contact of the check, and those that the fastest term of a series resolves.
+/// Steps per contact of the check, and the slowest contact time over the fastest relaxation time of a series: a sixth of 50 steps.
 const N_STEPS: f64 = 100.0;
+const FASTEST: f64 = 300.0;
 /// Rows of the table of a law that dents, to three times the largest approach.
-const N_KNOTS: usize = 48;
+const N_KNOTS: usize = 64;
 const DEEPER: f64 = 3.0;
 /// A speed at which any adhesion holds bodies together, m/s.
 const STILL: f64 = 1e-9;
@@ -43,7 +44,7 @@ const STILL: f64 = 1e-9;
 /// A contact law to compile and its errors beside the model that it stands for.
 #[derive(Clone, Debug)]
 pub struct LawExport {
-    /// The law.
+    /// The law and the text of its header.
     pub law: PairLaw,
     /// The model that it stands for.
     pub model: String,
@@ -244,7 +245,7 @@ impl Source {
         let reduced = |relaxation: &PairRelaxation| {
             let range = [PI / (SERIES_MARGIN * times[0]), SERIES_MARGIN * PI / times[1]];
             let (weight, terms) = (relaxation.equilibrium_weight(), relaxation.terms());
-            reduced_series(weight, terms, range, times[0] / N_STEPS, SERIES_TOLERANCE)
+            reduced_series(weight, terms, range, times[0] / FASTEST, SERIES_TOLERANCE)
         };
         let springs = ContactSprings::new(pair, &relaxation, &profile, radii, middle)?;
         let (weight, terms) = reduced(&relaxation);
@@ -283,8 +284,11 @@ impl Source {
         let [slow, fast] = [0, N_SPEEDS - 1].map(|k| self.computed[k]);
         let deepest = DEEPER * fast.quantities.max_approach;
         let first = law.first_yield().ok_or_else(missing)?;
-        // A law that dents at once has its table from far below the slowest contact.
-        let first = first.min(1e-3 * slow.quantities.max_approach.max(first.min(deepest)));
+        // A law without Hertz' beginning has its table from far below the slowest contact.
+        let first = match law.elastic_exponent() == 1.5 && first.is_finite() {
+            true => first,
+            false => 1e-3 * slow.quantities.max_approach,
+        };
         let log_ratio = (deepest / first).max(2.0).ln() / (N_KNOTS - 1) as f64;
         let knot = |k: usize| {
             let approach = first * (log_ratio * k as f64).exp();
@@ -418,27 +422,11 @@ fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
     let hertz = HertzImpact::new(pair, *speed).map_or(f64::NAN, |hertz| hertz.contact_time());
     let time = if quantities.contact_time.is_finite() { quantities.contact_time } else { hertz };
     let (mass, step) = (pair.effective_mass(), time / N_STEPS);
-    let [e, contact_time, force] = match repulsion {
-        Repulsion::Springs(springs, _) => springs.impact(mass, *speed, step),
-        Repulsion::Hertz(numbers) => {
-            verlet_impact(mass, *speed, step, |[approach, _]| elastic(numbers, approach))
-        }
-        Repulsion::Dents(table) => {
-            let mut spot = table.spot(*speed);
-            verlet_impact(mass, *speed, step, |[approach, _]| spot.force(approach))
-        }
-    };
+    let [e, contact_time, force] = repulsion.impact(mass, *speed, step);
     let of_time = match quantities.contact_time.is_finite() && contact_time.is_finite() {
         true => (contact_time / time - 1.0).abs(),
         false => 0.0,
     };
     let of_force = (force / quantities.peak_force - 1.0).abs();
     [(e - quantities.restitution).abs(), of_time, of_force]
-}
-
-/// Returns F = K u^(3/2) of an approach, m, in N.
-fn elastic([stiffness, first, second]: &[f64; 3], approach: f64) -> f64 {
-    let approach = approach.max(0.0);
-    let hertz = approach / (1.0 + first * approach.sqrt() + second * approach);
-    stiffness * hertz * hertz.sqrt()
 }

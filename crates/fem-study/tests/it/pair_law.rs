@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 use fem_case::Case;
 use fem_data::dem::{PAIR_CHECK, Repulsion};
@@ -24,7 +25,11 @@ fn cases() -> Vec<(&'static str, Case)> {
                  { weight = 0.2, relaxation_time = 3e-5 }, { weight = 0.2, relaxation_time = 1e-3 }] }";
     let like = "sphere.diameter = 0.02\nmaterial = 'm'";
     let elastic = "elastic = true";
+    let text = "scene.temperature = '40 degC'\n[[body]]\nname = 'floor'\nwall = {}\n[[body]]\nname = 'ball'\n\
+                sphere.diameter = 0.01\nmaterial = 'lib:pvb'\napproach_speed = 0.3\n[model.ting]\nfinite_size = false";
+    let transition = Case::parse("pvb.toml", text, std::path::Path::new("."), &[]).unwrap();
     vec![
+        ("transition", transition),
         ball("elastic", &format!("{GLASS}, {elastic}"), like, ""),
         ball("relaxing", &format!("{GLASS}, {three}"), like, ""),
         ball(
@@ -50,13 +55,25 @@ fn cases() -> Vec<(&'static str, Case)> {
     ]
 }
 
+/// Returns the laws of all cases, which all tests share.
+fn laws() -> &'static [(&'static str, LawExport)] {
+    static LAWS: OnceLock<Vec<(&'static str, LawExport)>> = OnceLock::new();
+    let law = |(name, case): (&'static str, Case)| {
+        (name, LawExport::of(&case, name, None, false).unwrap())
+    };
+    LAWS.get_or_init(|| cases().into_iter().map(law).collect())
+}
+
 /// A law compiled with the program of checks.
 struct Compiled(PathBuf);
 
 impl Compiled {
     /// Compiles a law by the compiler `cc`; `None`, with a printed reason, where there is none.
+    #[expect(clippy::disallowed_macros, reason = "a test that is skipped says why")]
     fn of(export: &LawExport, flags: &[&str]) -> Option<Self> {
-        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pair_law");
+        // Tests run beside each other.
+        let test = std::thread::current().name().unwrap_or_default().replace(':', "_");
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
         std::fs::create_dir_all(&folder).unwrap();
         let law = &export.law;
         let [header, source] =
@@ -103,9 +120,8 @@ fn words(mode: &str, numbers: &[f64]) -> Vec<String> {
 /// is known to half of it, 1 % of 50. A spring of twelve changes the force by (3/8)/12² = 0.26 %.
 #[test]
 fn compiled_law_has_the_impacts_of_its_model() {
-    for (name, case) in cases() {
-        let export = LawExport::of(&case, name, None, false).unwrap();
-        let Some(compiled) = Compiled::of(&export, &[]) else { return };
+    for (name, export) in laws() {
+        let Some(compiled) = Compiled::of(export, &[]) else { return };
         let points: Vec<_> = export.law.curve.iter().zip(&export.impacts).step_by(4).collect();
         for (n_steps, of_e) in [(200.0, 0.001), (100.0, 0.001), (50.0, 0.002)] {
             let line = |([speed, ..], impact): &(&[f64; 3], &fem_laws::ImpactQuantities)| {
@@ -136,10 +152,9 @@ fn compiled_law_has_the_impacts_of_its_model() {
 /// The C text and the springs of the program are one law: they differ by the nine digits of the header's numbers.
 #[test]
 fn compiled_springs_are_those_of_the_program() {
-    for (name, case) in cases() {
-        let export = LawExport::of(&case, name, None, false).unwrap();
+    for (name, export) in laws() {
         let Repulsion::Springs(springs, _) = &export.law.repulsion else { continue };
-        let Some(compiled) = Compiled::of(&export, &[]) else { return };
+        let Some(compiled) = Compiled::of(export, &[]) else { return };
         let (speed, step) = (0.7, export.impacts[8].contact_time / 77.0);
         let own = springs.impact(export.law.pair.effective_mass(), speed, step);
         let found = compiled.run(&words("impacts", &[]), &format!("{speed:e} {step:e}\n"));
@@ -149,18 +164,18 @@ fn compiled_springs_are_those_of_the_program() {
     }
 }
 
-/// Random motions with steps over five decades, pauses and separations, by double and single precision: no work is given, along the axis
+/// Random motions with steps over five decades, pauses and separations, by double and single precision and with sanitizers: no work is given, along the axis
 /// or across it. A motion of a 200th of the depth per step passes a spring's gap with an error of its work below 1e-4 of the whole; that
 /// of a table of forces, which is no sum of straight lines, is 1e-3.
 #[test]
 fn random_motions_gain_no_energy() {
-    for (name, case) in cases() {
-        let export = LawExport::of(&case, name, None, false).unwrap();
+    for (name, export) in laws() {
         let middle = &export.impacts[8];
         let speed = export.law.curve[8][0];
-        for flags in [&[][..], &["-DPAIR_REAL=float"][..]] {
-            let Some(compiled) = Compiled::of(&export, flags) else { return };
-            for seed in 0..4 {
+        let sanitized = &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+        for flags in [&[][..], &["-DPAIR_REAL=float"][..], sanitized] {
+            let Some(compiled) = Compiled::of(export, flags) else { return };
+            for seed in 0..2 {
                 let motion =
                     [2e4, f64::from(seed), middle.max_approach, middle.contact_time, 3.0 * speed];
                 let least = &compiled.run(&words("walk", &motion), "")[0];
@@ -176,8 +191,8 @@ fn random_motions_gain_no_energy() {
 #[test]
 fn friction_is_that_of_the_model_of_oblique_impacts() {
     let (name, case) = cases().into_iter().find(|(name, _)| *name == "rubbing").unwrap();
-    let export = LawExport::of(&case, name, None, false).unwrap();
-    let Some(compiled) = Compiled::of(&export, &[]) else { return };
+    let (_, export) = laws().iter().find(|(own, _)| *own == name).unwrap();
+    let Some(compiled) = Compiled::of(export, &[]) else { return };
     let scene = case.scene();
     let [lower, upper] = scene.bodies().each_ref().map(|body| body.material());
     let pair = scene.pair().unwrap();
@@ -198,7 +213,7 @@ fn friction_is_that_of_the_model_of_oblique_impacts() {
     }
 }
 
-/// What the header cannot hold is an error with a way out.
+/// An effect that the header cannot hold is an error with a way out.
 #[test]
 fn effects_without_a_form_are_errors() {
     let (_, case) = cases().pop().unwrap();
