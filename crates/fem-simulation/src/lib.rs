@@ -36,8 +36,8 @@ pub use models::method::{
 };
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
-    AutoMethod, Condensed, CondensedMethod, ContactPatch, ExpectedError, Explicit, ExplicitMethod,
-    METHODS, ModelCandidate, ObliqueRebound, ObliqueResponse, Reduced, ReducedMethod, method_of,
+    AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, METHODS,
+    ModelCandidate, ObliqueRebound, ObliqueResponse, Reduced, ReducedMethod, method_of,
     selected_model,
 };
 pub use plan::body_source::build_meshes;

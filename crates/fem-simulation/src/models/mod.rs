@@ -31,7 +31,6 @@ use sticking::Bond;
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
-pub use oblique::ContactPatch;
 pub use oblique_response::{ObliqueRebound, ObliqueResponse};
 pub use reduced::{Reduced, ReducedMethod};
 

@@ -14,7 +14,6 @@ use fem_laws::{LawError, NormalSprings, TangentialContact, TangentialImpact, Tan
 
 use crate::effects::FrictionEffect;
 use crate::models::altered::Alteration;
-use crate::models::reduced::Reduced;
 use crate::rejection::Rejection;
 
 /// Moment of inertia of a solid sphere over m R².
@@ -25,46 +24,6 @@ const SECOND_ORDER: f64 = 0.05;
 
 /// Relative change of the stiffness by which its effect is found.
 const STIFFER: f64 = 0.01;
-
-/// The patch of a contact with friction, under the loads of one normal impact.
-#[derive(Clone, Debug)]
-pub struct ContactPatch {
-    contact: TangentialContact,
-    springs: NormalSprings,
-    /// m* over the mass of the patch.
-    mass_ratio: f64,
-}
-
-impl ContactPatch {
-    /// Computes the normal impact of a scene with a reduced model at its approach speed.
-    ///
-    /// # Errors
-    /// A scene in which friction is not computed, or whose normal impact is not.
-    pub fn of(scene: &Scene) -> Result<Self, Rejection> {
-        check(scene)?;
-        let bodies = ObliqueBodies::rubbing(scene)?;
-        let springs = Reduced::new(scene)?.springs_at(scene.approach_speed()).ok_or_else(|| {
-            Rejection::new("contact.friction", "the normal impact has no loads to rub under")
-        })?;
-        let mass_ratio = bodies.normal_mass() / bodies.contact.mass();
-        Ok(Self { contact: bodies.contact, springs, mass_ratio })
-    }
-
-    /// Returns the velocity of the patch after an impact, m/s, from that before it.
-    pub fn velocity_after(&self, before: f64) -> f64 {
-        self.contact.impact(&self.springs, before).velocity
-    }
-
-    /// Returns the tangential modulus before relaxation, Pa; see [`TangentialContact`].
-    pub fn modulus(&self) -> f64 {
-        self.contact.modulus()
-    }
-
-    /// Returns the effective mass of the normal motion over that of the patch, 7/2 for solid spheres.
-    pub fn mass_ratio(&self) -> f64 {
-        self.mass_ratio
-    }
-}
 
 /// Two bodies that move across the axis or spin.
 #[derive(Clone, Debug)]
@@ -89,11 +48,6 @@ impl ObliqueBodies {
         if scene.friction() > 0.0 {
             check(scene)?;
         }
-        Self::rubbing(scene).map(Some)
-    }
-
-    /// Returns the bodies of a scene with friction on their contact.
-    fn rubbing(scene: &Scene) -> Result<Self, Rejection> {
         let friction = scene.friction();
         let reject = |error: LawError| Rejection::new("contact.friction", error.to_string());
         let moves = |body: &Body| body.mass().filter(|_| !body.is_held());
@@ -120,7 +74,7 @@ impl ObliqueBodies {
             true => [spheres, half_spaces],
             false => [half_spaces, spheres],
         };
-        Ok(Self { scene: scene.clone(), contact, other_size, inverse_masses })
+        Ok(Some(Self { scene: scene.clone(), contact, other_size, inverse_masses }))
     }
 
     /// Returns the bodies with another coefficient of friction.

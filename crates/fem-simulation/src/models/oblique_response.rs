@@ -86,6 +86,21 @@ impl ObliqueResponse {
         Self { springs: self.springs.coarser(), ..self.clone() }
     }
 
+    /// Returns the velocity of the contact patch after the impact, m/s, from that before it.
+    pub fn patch_after(&self, friction: f64, before: f64) -> f64 {
+        self.bodies.contact().clone().with_friction(friction).impact(&self.springs, before).velocity
+    }
+
+    /// Returns the tangential modulus before relaxation, Pa; see [`fem_laws::TangentialContact`].
+    pub fn modulus(&self) -> f64 {
+        self.bodies.contact().modulus()
+    }
+
+    /// Returns the effective mass of the motion along the axis over that of the patch, 7/2 for solid spheres.
+    pub fn mass_ratio(&self) -> f64 {
+        self.bodies.normal_mass() / self.bodies.contact().mass()
+    }
+
     /// Returns the rebound with a coefficient of friction of a ball with a tangential velocity, m/s. A measured `restitution` takes the
     /// place of the computed one.
     pub fn rebound(

@@ -9,7 +9,7 @@ use fem_data::dem::PatchRebound;
 use fem_data::estimate::Point;
 use fem_laws::{Adhesion, LawFamily};
 use fem_simulation::{
-    ContactPatch, FlowingImpact, Reduced, bounds_of_closed_forms, computed_flow,
+    FlowingImpact, ObliqueResponse, Reduced, bounds_of_closed_forms, computed_flow,
     restitution_with_adhesion,
 };
 
@@ -266,18 +266,19 @@ fn stand_in(case: &Case, is_sized: bool) -> Result<Case, LawFault> {
 /// Computes how the patch of an oblique impact rebounds over the angle, at the approach speed of a case with friction: of spheres of a
 /// finite size, unless the contact is too wide for that.
 pub(super) fn patch_rebound(case: &Case) -> Result<PatchRebound, LawFault> {
-    let of = |case: &Case| -> Result<ContactPatch, LawFault> {
-        Ok(ContactPatch::of(case.scene()).map_err(|refusal| refusal.in_case(case))?)
+    let speed = case.scene().approach_speed();
+    let of = |case: &Case| -> Result<ObliqueResponse, LawFault> {
+        Ok(ObliqueResponse::of(case.scene(), speed).map_err(|refusal| refusal.in_case(case))?)
     };
     let patch = match has_elements(case) {
         true => of(&stand_in(case, true)?).or_else(|_| of(&stand_in(case, false)?))?,
         false => of(case)?,
     };
-    let (friction, speed) = (case.scene().friction(), case.scene().approach_speed());
+    let friction = case.scene().friction();
     let scale = friction * speed;
     let before: Vec<f64> =
         (1..=N_ANGLES).map(|k| WIDEST_ANGLE * k as f64 / N_ANGLES as f64).collect();
-    let after = before.iter().map(|x| patch.velocity_after(scale * x) / scale).collect();
+    let after = before.iter().map(|x| patch.patch_after(friction, scale * x) / scale).collect();
     let (modulus, mass_ratio) = (patch.modulus(), patch.mass_ratio());
     Ok(PatchRebound { friction, modulus, mass_ratio, speed, before, after })
 }

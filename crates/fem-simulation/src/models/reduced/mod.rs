@@ -144,11 +144,6 @@ impl Reduced {
         Self::of(&Regime::of(scene.clone())?)
     }
 
-    /// Returns the loads of the contact's springs at an approach speed, m/s; `None` of an impact that is not computed.
-    pub(super) fn springs_at(&self, speed: f64) -> Option<NormalSprings> {
-        self.springs_of(&self.impact(speed).ok()?)
-    }
-
     /// Returns the loads of the contact's springs in an impact.
     fn springs_of(&self, impact: &Impact) -> Option<NormalSprings> {
         let materials = self.scene.bodies().each_ref().map(|body| match self.scene.model() {
