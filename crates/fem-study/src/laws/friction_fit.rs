@@ -16,6 +16,8 @@ use super::law_fault::LawFault;
 
 /// Values per decade of the search.
 const STEPS_PER_DECADE: f64 = 12.0;
+/// Difference of misfits by rounding.
+const EXACT: f64 = 1e-9;
 /// Halvings, nearly, of a bracket by the golden section: eight digits.
 const GOLDEN_STEPS: usize = 40;
 /// Least coefficient of the search over that of the first row that does not slide throughout.
@@ -117,6 +119,9 @@ impl<'a> FrictionFit<'a> {
         let mut best: Vec<(f64, f64)> =
             minima(&scan).map(|bracket| golden(bracket, |mu| curve.misfit(mu))).collect();
         best.sort_by(|a, b| a.1.total_cmp(&b.1));
+        // One row may have several exact solutions, of which that with the least friction is the usual one.
+        let n_exact = best.iter().filter(|(_, misfit)| misfit - best[0].1 <= EXACT).count();
+        best[..n_exact].sort_by(|a, b| a.0.total_cmp(&b.0));
         let (last, stuck) = scan[scan.len() - 1];
         // No coefficient is better than that of patches that all stick.
         let Some(&(friction, least)) = best.first().filter(|(_, misfit)| *misfit <= stuck) else {

@@ -172,7 +172,7 @@ fn an_export_has_its_range_of_validity() {
     let curve = ImpactCurve::computed(&case, Some((0.05, 0.5)), false).unwrap();
     assert!(!curve.has_hertz_times && curve.points.len() == 13);
     let export = DemExport::of(&case, curve, 0.01).unwrap();
-    let [constant, viscoelastic, _] = &export.laws[..] else { panic!("{:?}", export.laws) };
+    let [constant, _, viscoelastic, _] = &export.laws[..] else { panic!("{:?}", export.laws) };
     // The law has this restitution at each speed within its tolerance.
     assert!((export.export.restitution - 0.9).abs() < 1e-7);
     assert_eq!(constant.validity[..2], [0.05, 0.5]);

@@ -24,7 +24,7 @@ use crate::text::failure::Failure;
 use crate::text::run_report::Detail;
 use crate::text::standard_output;
 
-/// Fit parameters of a contact law to restitutions over speed, or the friction to rebounds over the angle
+/// Fit a contact law to restitutions, or friction to rebound angles
 ///
 /// The case gives the two bodies, a CSV file the restitutions. Writes fit.json, residuals.csv, fit.svg and
 /// histories.svg, and prints values with their confidence intervals. Rebound angles, spins or tangential velocities

@@ -18,7 +18,7 @@ use crate::arguments::law::{
 use crate::text::standard_output;
 use crate::text::{Failure, headed, show_value};
 
-/// Find the parameter of a law that gives a restitution, or the friction that gives a rebound angle
+/// Find the parameter of a law, or friction, that gives a rebound
 ///
 /// The case gives the two bodies and the speed. For the law `ting` the parameter is the decay rate of the
 /// bodies' relaxation. Without --law, the case's law is used, or else all laws that need only one
