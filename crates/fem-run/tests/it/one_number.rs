@@ -206,6 +206,12 @@ fn has_strength(entry: &Material) -> bool {
     entry.material.yield_strength.is_some() || entry.material.flow.is_some()
 }
 
+/// Returns the file of an export with a name.
+fn snippet<'a>(export: &'a Value, file: &str) -> &'a Value {
+    let snippets = export["snippets"].as_array().unwrap();
+    snippets.iter().find(|snippet| snippet["file"] == file).unwrap()
+}
+
 /// Compares the law that falls with speed with a run on a half-space, since the codes have no plate.
 fn compare_on_a_block(of: &str, place: &Place, export: &Value) {
     let a = number(&export["dissipation_time_s"]);
@@ -218,9 +224,7 @@ fn compare_on_a_block(of: &str, place: &Place, export: &Value) {
     place.write("block.toml", &text.replace(plate, "half_space = {}"));
     place.succeed(["block.toml", "--set", &law, "--out", "block", "--force"]);
     let ran = number(&place.json("block/summary.json")["restitution"]);
-    let snippets = export["snippets"].as_array().unwrap();
-    let file = snippets.iter().find(|snippet| snippet["file"] == "lammps_viscoelastic.in");
-    let made = number(&file.unwrap()["restitutions_at_data"][6]);
+    let made = number(&snippet(export, "lammps_viscoelastic.in")["restitutions_at_data"][6]);
     assert!((made - ran).abs() < 1e-6, "{of}: {made} {ran}");
 }
 
@@ -247,7 +251,7 @@ fn compare_export(of: &str, text: &str, summary: &Value, is_exported: bool) {
     for (folder, export) in folders.iter().zip(&exports) {
         let bounds = export["bounds"].as_array().unwrap();
         assert!(*folder == "accepted" || bounds.is_empty(), "{of}: {bounds:?}");
-        let written = &export["snippets"][0];
+        let written = snippet(export, LAMMPS);
         let (e, worst) = (number(&written["restitution"]), number(&written["worst_error"]));
         for snippet in export["snippets"].as_array().unwrap() {
             let file = place.text(format!("{folder}/{}", snippet["file"].as_str().unwrap()));
