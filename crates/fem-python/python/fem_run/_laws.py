@@ -246,7 +246,7 @@ def export(
 ) -> dict[str, Any]:
     """Writes input for DEM codes and robotics that reproduces the restitutions.
 
-    For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo.
+    For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake, MuJoCo and Newton.
 
     Args:
         case: the two bodies.
