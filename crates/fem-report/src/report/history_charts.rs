@@ -275,7 +275,7 @@ pub fn normalised_chart(results: &[StoredResult]) -> Option<Chart> {
     Some(with_hertz(chart, hertz_points, "Hertz".to_string()))
 }
 
-/// Returns the chart of an oblique impact over time ([`oblique_chart`]) or, of several results, the velocity of the patch after over
+/// Returns the chart of an oblique impact over time or, of several results, the velocity of the patch after over
 /// before; `None` of head-on impacts.
 pub fn oblique_charts(results: &[StoredResult]) -> Option<Chart> {
     if let [only] = results {
