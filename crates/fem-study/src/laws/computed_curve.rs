@@ -204,7 +204,7 @@ impl ComputedImpacts<'_> {
 }
 
 /// Returns whether a body of a scene relaxes.
-fn relaxes(scene: &Scene) -> bool {
+pub(super) fn relaxes(scene: &Scene) -> bool {
     let relaxes = |body: &Body| body.material().is_some_and(|it| it.relaxation().is_some());
     scene.bodies().iter().any(relaxes)
 }
@@ -240,9 +240,10 @@ fn reduced(case: &Case) -> Result<Reduced, LawFault> {
         return Ok(of(case)?);
     }
     let has_plate = plate_of(case.scene())?.is_some();
-    match has_plate.then(|| of(&stand_in(case, true)?).map_err(LawFault::from)) {
+    let relaxes = relaxes(case.scene());
+    match has_plate.then(|| of(&stand_in(case, relaxes, true)?).map_err(LawFault::from)) {
         Some(Ok(sized)) => Ok(sized),
-        _ => Ok(of(&stand_in(case, false)?)?),
+        _ => Ok(of(&stand_in(case, relaxes, false)?)?),
     }
 }
 
@@ -252,10 +253,10 @@ fn has_elements(case: &Case) -> bool {
     matches!(case.scene().model(), Fem | Condensed(_) | Auto)
 }
 
-/// Returns a case with Ting's model if a body relaxes and Hertz' otherwise, with or without finite size.
-fn stand_in(case: &Case, is_sized: bool) -> Result<Case, LawFault> {
+/// Returns a case with Ting's model or Hertz', with or without finite size.
+pub(super) fn stand_in(case: &Case, is_ting: bool, is_sized: bool) -> Result<Case, LawFault> {
     let finite_size = Some(is_sized);
-    let (ting, hertz) = match relaxes(case.scene()) {
+    let (ting, hertz) = match is_ting {
         true => (Some(TingTable { finite_size, ..TingTable::default() }), None),
         false => (None, Some(HertzTable { finite_size })),
     };
@@ -271,7 +272,10 @@ pub(super) fn patch_rebound(case: &Case) -> Result<PatchRebound, LawFault> {
         Ok(ObliqueResponse::of(case.scene(), speed).map_err(|refusal| refusal.in_case(case))?)
     };
     let patch = match has_elements(case) {
-        true => of(&stand_in(case, true)?).or_else(|_| of(&stand_in(case, false)?))?,
+        true => {
+            let relaxes = relaxes(case.scene());
+            of(&stand_in(case, relaxes, true)?).or_else(|_| of(&stand_in(case, relaxes, false)?))?
+        }
         false => of(case)?,
     };
     let friction = case.scene().friction();

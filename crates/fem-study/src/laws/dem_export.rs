@@ -109,20 +109,14 @@ impl DemExport {
             validity: constant_validity,
         };
         let mut laws = vec![constant, linear];
-        let families = [LawFamily::KuwabaraKono, LawFamily::HertzDashpot];
-        let dashpots = families.map(|family| {
-            let model = model_of(scene, family, force)?;
+        let points = timeless(&curve.points);
+        for family in [LawFamily::KuwabaraKono, LawFamily::HertzDashpot] {
+            let (model, key) = (model_of(scene, family, force)?, family.parameters()[0].key);
             let values = match is_lossless {
                 true => vec![0.0],
-                false => {
-                    let (points, key) = (timeless(&curve.points), family.parameters()[0].key);
-                    Problem::new(&model, &points, &[key])?.fit(CONFIDENCE)?.values
-                }
+                false => Problem::new(&model, &points, &[key])?.fit(CONFIDENCE)?.values,
             };
-            FittedLaw::judged(model, values, &curve, tolerance)
-        });
-        for law in dashpots {
-            laws.push(law?);
+            laws.push(FittedLaw::judged(model, values, &curve, tolerance)?);
         }
         let has_strength = scene.bodies().iter().any(|body| body.yield_strength().is_some());
         let dents = has_strength || curve.law.is_some_and(LawFamily::is_elastic_plastic);

@@ -137,12 +137,13 @@ impl<'a> FrictionFit<'a> {
             (false, 0) => None,
             (false, n) => Some(least / n as f64),
         };
-        let systematic = |changes: &[f64]| {
+        // The change of the coefficient by changes of all rows.
+        let moved = |changes: &[f64]| {
             let sum = slopes.iter().zip(&curve.weights).zip(changes).map(|((s, w), c)| w * s * c);
-            (sum.sum::<f64>() / information).abs()
+            sum.sum::<f64>() / information
         };
-        let by_rows = curve.model_errors(friction).map(|errors| systematic(&errors));
-        let by_restitution = curve.changes_by_restitution(friction).map(|it| systematic(&it));
+        let by_rows = curve.model_errors(friction).map(|errors| moved(&errors).abs());
+        let by_restitution = curve.changes_by_restitution(friction).map(|it| moved(&it).abs());
         let by_model = by_rows.zip(by_restitution).map(|(one, other)| one + other);
         let noise = scale.map_or(0.0, f64::sqrt);
         let tolerance = |mu: f64| curve.tolerated(mu, friction, noise);
@@ -158,10 +159,8 @@ impl<'a> FrictionFit<'a> {
             let changed = Curve::of(changed.scene(), data).ok()?;
             let values = curve.values(friction).into_iter().zip(changed.values(friction));
             let changes: Vec<f64> = values.map(|(own, other)| own - other).collect();
-            let sum = slopes.iter().zip(&curve.weights).zip(changes).map(|((s, w), c)| w * s * c);
-            Some(vec![sum.sum::<f64>() / information])
+            Some(vec![moved(&changes)])
         });
-        let mean = rows.iter().map(|row| (row.computed - row.measured).powi(2)).sum::<f64>();
         Ok(Self {
             data,
             friction,
@@ -170,7 +169,7 @@ impl<'a> FrictionFit<'a> {
             by_data: scale.map(|scale| (scale / information).sqrt()),
             by_model,
             inputs,
-            rms: (mean / rows.len() as f64).sqrt(),
+            rms: rms_of(&rows),
             chi_square: is_weighed.then(|| least / freedom.max(1) as f64),
             rows,
         })
@@ -179,8 +178,7 @@ impl<'a> FrictionFit<'a> {
     /// Returns the fit of rebounds that fit best if all patches stick: the least coefficient with which they do.
     fn bounded(data: &'a Rebounds, curve: &Curve<'_>, last: f64, scan: &[(f64, f64)]) -> Self {
         let rows = curve.rows(last, &vec![0.0; data.points.len()]);
-        let mean = rows.iter().map(|row| (row.computed - row.measured).powi(2)).sum::<f64>();
-        let rms = (mean / rows.len() as f64).sqrt();
+        let rms = rms_of(&rows);
         let noise = if curve.is_weighed { 1.0 } else { rms };
         let tolerance = |mu: f64| curve.tolerated(mu, last, noise);
         let at_least = lower_end(&tolerance, tolerance(last) + 1.0, scan, last);
@@ -470,6 +468,12 @@ impl<'a> Curve<'a> {
         };
         (0..self.rows.len()).map(row).collect()
     }
+}
+
+/// Returns the root mean square of the misfits, in the SI unit of the quantity.
+fn rms_of(rows: &[FrictionRow]) -> f64 {
+    let sum = rows.iter().map(|row| (row.computed - row.measured).powi(2)).sum::<f64>();
+    (sum / rows.len() as f64).sqrt()
 }
 
 /// Returns the brackets of the minima of a scan.

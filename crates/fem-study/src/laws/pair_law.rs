@@ -6,8 +6,7 @@
 use std::f64::consts::PI;
 
 use fem_case::engineering::{number, show};
-use fem_case::schema::{HertzTable, ModelTable, TingTable};
-use fem_case::{Body, Case, ModelChoice, Scene};
+use fem_case::{Case, ModelChoice, Scene};
 use fem_data::dem::{DentTable, PairLaw, Repulsion, ShearSprings};
 use fem_data::estimate::FitError;
 use fem_data::relaxation::reduced_series;
@@ -21,6 +20,7 @@ use fem_simulation::{
 };
 
 use super::chosen_law::plate_of;
+use super::computed_curve::{relaxes, stand_in};
 use super::law_fault::LawFault;
 
 /// Speeds of the tables of e and T.
@@ -63,6 +63,15 @@ struct Computed {
     quantities: ImpactQuantities,
     /// Error of the restitution by the model, if it is known.
     error: Option<f64>,
+}
+
+impl Computed {
+    /// Returns the contact time, s; that of Hertz where the bodies stay together.
+    fn time_scale(&self, pair: &Pair) -> f64 {
+        let hertz =
+            || HertzImpact::new(pair, self.speed).map_or(f64::NAN, |hertz| hertz.contact_time());
+        Some(self.quantities.contact_time).filter(|time| time.is_finite()).unwrap_or_else(hertz)
+    }
 }
 
 impl LawExport {
@@ -240,7 +249,7 @@ impl Source {
         if relaxation.terms().is_empty() && is_plain {
             return Ok(Repulsion::Hertz(profile.elastic(pair, &relaxation, radii[1])));
         }
-        let times = [0, N_SPEEDS - 1].map(|k| self.time_scale(pair, k));
+        let times = [0, N_SPEEDS - 1].map(|k| self.computed[k].time_scale(pair));
         let middle = PI / (times[0] * times[1]).sqrt();
         let reduced = |relaxation: &PairRelaxation| {
             let range = [PI / (SERIES_MARGIN * times[0]), SERIES_MARGIN * PI / times[1]];
@@ -269,13 +278,6 @@ impl Source {
             false => None,
         };
         Ok(Repulsion::Springs(springs, shear))
-    }
-
-    /// Returns the contact time at one of the speeds, s; that of Hertz where the bodies stay together.
-    fn time_scale(&self, pair: &Pair, k: usize) -> f64 {
-        let Computed { speed, quantities, .. } = self.computed[k];
-        let hertz = || HertzImpact::new(pair, speed).map_or(f64::NAN, |hertz| hertz.contact_time());
-        Some(quantities.contact_time).filter(|time| time.is_finite()).unwrap_or_else(hertz)
     }
 
     fn dent_table(&self, reduced: &Reduced, strengths: [f64; 2]) -> Result<DentTable, LawFault> {
@@ -323,24 +325,12 @@ fn with_model(case: &Case) -> Result<Case, LawFault> {
         _ => {}
     }
     let radiates = !radiating_half_spaces(scene, scene.approach_speed()).is_empty();
-    let is_ting = radiates || scene.bodies().iter().any(relaxes);
-    let with_size = |size: bool| {
-        let (ting, hertz) = match is_ting {
-            true => (Some(TingTable { finite_size: Some(size), ..TingTable::default() }), None),
-            false => (None, Some(HertzTable { finite_size: Some(size) })),
-        };
-        let model = ModelTable { ting, hertz, ..ModelTable::default() };
-        Ok(case.edited(|file| file.model = Some(model))?)
-    };
-    let sized: Case = with_size(true)?;
+    let is_ting = radiates || relaxes(scene);
+    let sized = stand_in(case, is_ting, true)?;
     match Reduced::new(sized.scene()) {
         Ok(_) => Ok(sized),
-        Err(_) => with_size(false),
+        Err(_) => stand_in(case, is_ting, false),
     }
-}
-
-fn relaxes(body: &Body) -> bool {
-    body.material().is_some_and(|material| material.relaxation().is_some())
 }
 
 /// Returns the results of the model at a speed, m/s, without adhesion.
@@ -386,7 +376,7 @@ fn dents(case: &Case, speeds: [f64; 2]) -> Result<Option<(Reduced, [f64; 2])>, L
 /// Checks that the header holds what a case has beside flow.
 fn check_dents(scene: &Scene) -> Result<(), LawFault> {
     let unheld = |message: &str, help: &str| Err(LawFault::Unheld(message.into(), help.into()));
-    if scene.bodies().iter().any(relaxes) {
+    if relaxes(scene) {
         return unheld(
             "the header holds relaxation or plastic flow, and this case has both",
             "remove the relaxation of the bodies, or write effects.plastic_flow = \"off\"",
@@ -419,8 +409,7 @@ fn adhesion_of(scene: &Scene, pair: &Pair) -> Option<[f64; 2]> {
 /// Returns the errors of a law beside a computed impact: of e, and of T and F relative.
 fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
     let Computed { speed, quantities, .. } = at;
-    let hertz = HertzImpact::new(pair, *speed).map_or(f64::NAN, |hertz| hertz.contact_time());
-    let time = if quantities.contact_time.is_finite() { quantities.contact_time } else { hertz };
+    let time = at.time_scale(pair);
     let (mass, step) = (pair.effective_mass(), time / N_STEPS);
     let [e, contact_time, force] = repulsion.impact(mass, *speed, step);
     let of_time = match quantities.contact_time.is_finite() && contact_time.is_finite() {
