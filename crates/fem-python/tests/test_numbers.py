@@ -174,6 +174,7 @@ def test_records_become_data_of_a_fit():
     assert "13 restitutions" in repr(found) and found._repr_html_().startswith("<svg")
     case = fem_run.Case.load(ROOT / "cases" / "glass_0.5ms.toml")
     assert fem_run.fit(case, table, law="kuwabara_kono")["points"] == 13
+    assert fem_run.fit(case, table, code="lethe")["law"] == "tsuji"
     force = fem_run.measure(data / "ball_force.csv", mass="10 g", height=0.03)
     assert (force.table()["contact_time_s"] > 1e-3).all()
     instants = fem_run.measure({"time_s": [0.4, 1.0, 1.54, 2.026]})

@@ -15,7 +15,7 @@ from conftest import ROOT
 
 FUNCTIONS = {name: getattr(fem_run, name) for name in ("calibrate", "cradle", "export", "fit", "invert", "measure", "relaxation")}
 #: Options about the command's files and screen, and those of its case.
-OF_THE_COMMAND = {"at", "data", "for", "force", "json", "out", "quiet", "set", "verbose"}
+OF_THE_COMMAND = {"at", "data", "force", "json", "out", "quiet", "set", "verbose"}
 #: Sources whose messages only the command prints.
 NOT_IN_PYTHON = re.compile(
     r"fem-run/src/(sweep/|commands/(accuracy|mesh|new|report|run|shell|sweep|validate)|arguments/mod|result_folder/(restart|whole_file))"

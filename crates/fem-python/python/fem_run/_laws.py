@@ -53,6 +53,8 @@ Law = Literal[
     "mdr",
     "ting",
 ]
+#: A code of the discrete element method.
+Code = Literal["lammps", "liggghts", "yade", "mercurydpm", "lethe", "mfix-dem", "drake", "mujoco", "newton"]
 #: When a contact ends: at zero force, or at zero overlap.
 End = Literal["zero_force", "zero_overlap"]
 #: A number in SI, or a text with a unit.
@@ -150,6 +152,7 @@ def fit(
     data: Any,
     *,
     law: Law | Literal["all"] | None = None,
+    code: Code | None = None,
     free: str | Sequence[str] | None = None,
     param: Mapping[str, Quantity] | None = None,
     end: End | None = None,
@@ -169,6 +172,7 @@ def fit(
         data: restitutions, and their uncertainties if there are any; or rebounds over the impact angle, which give the
             coefficient of friction: ``{"impact_angle_deg": [20, 40], "rebound_angle_deg": [12, 33]}``.
         law: the law; by default that of the case's model, or ``"all"``: the one that explains the data best.
+        code: the code that must have the law, ``"lammps"``; then the best of its laws is found.
         free: parameters to fit; by default the damping.
         param: values of other parameters, and starts of the free ones.
         end: when a contact ends.
@@ -458,7 +462,7 @@ def _words(arguments: Mapping[str, Any]) -> list[str]:
     """Returns the arguments of a function, but for case and data, as options of the command."""
     words: list[str] = []
     for name, value in arguments.items():
-        option = "--" + name.replace("_", "-")
+        option = "--" + ("for" if name == "code" else name.replace("_", "-"))
         if name in ("case", "data") or value is None or value is False:
             continue
         if value is True:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 #: Options whose Python name is another one.
-_NAMES = {"out": "folder"}
+_NAMES = {"out": "folder", "for": "code"}
 #: Options without a value.
 _FLAGS = {"as-elastic", "contact-time", "force", "prior", "robust", "vertical-shift"}
 #: Options with a list of values after the name, separated by commas.
