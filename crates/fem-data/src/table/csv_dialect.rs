@@ -125,7 +125,9 @@ pub(super) fn with_units(
     row: &[String],
     next: &[String],
 ) -> Option<Vec<String>> {
-    let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
+    let is_number = |cell: &str| {
+        parse_quantity(&with_point(cell)).is_ok() || value_and_uncertainty(cell).is_some()
+    };
     // `1/MPa` is a unit.
     if row.iter().any(|cell| is_number(cell) && !cell.starts_with("1/")) {
         return None;
@@ -148,7 +150,7 @@ pub(super) fn with_units(
 
 /// Whether a cell has no value.
 pub(super) fn is_missing(cell: &str) -> bool {
-    is_one_of(&cell.to_ascii_lowercase(), " nan na n/a n.a. #n/a null - --")
+    " nan na n/a n.a. #n/a null - --".split(' ').any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Returns a number with a decimal comma, such as `0,92` or `5,5 cm/s`, with a point; any other text is unchanged.
