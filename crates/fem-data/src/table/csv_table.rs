@@ -128,7 +128,7 @@ impl Table {
     ) -> Result<Self, DataError> {
         let name = one_line(name);
         let header_line = lines.first().map_or(1, |(line, _)| *line);
-        let (header, mut cells) = grid(&name, &lines, separator, is_record)?;
+        let (header, mut cells) = grid(&name, lines, separator, is_record)?;
         let names: Vec<String> = header.iter().map(|cell| column_name(cell)).collect();
         let mut header = with_signs_named(names.clone());
         let mut units = None;
@@ -541,12 +541,15 @@ impl Table {
 /// Returns the names of the columns, and the cells of the rows below them.
 fn grid(
     name: &str,
-    lines: &[Line<'_>],
+    lines: Vec<Line<'_>>,
     separator: u8,
     is_record: bool,
 ) -> Result<(Vec<String>, Cells), DataError> {
-    let mut text = String::new();
-    lines.iter().for_each(|(_, line)| text.extend([&**line, "\n"]));
+    let (mut text, mut numbers) = (String::new(), Vec::with_capacity(lines.len()));
+    for (number, line) in lines {
+        text.extend([&*line, "\n"]);
+        numbers.push(number);
+    }
     let mut reader = csv::ReaderBuilder::new();
     let reader = reader.delimiter(separator).flexible(true).trim(csv::Trim::All);
     let mut reader = reader.from_reader(text.as_bytes());
@@ -557,16 +560,16 @@ fn grid(
     let is_number = |cell: &String| parse_quantity(&with_point(cell)).is_ok();
     if !header.is_empty() && header.iter().all(is_number) {
         let error = DataError::new(name, "the first row is of numbers: there is no header");
-        return Err(error.in_line(lines[0].0).with_help(
+        return Err(error.in_line(numbers[0]).with_help(
             "write a line above it that names the columns, such as speed_m_s,restitution or \
              frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
         ));
     }
     let (mut cells, n_columns) = (Cells::new(header.len()), header.len());
-    for record in reader.records() {
-        let record = record.map_err(|error| DataError::new(name, error))?;
+    let mut record = csv::StringRecord::new();
+    while reader.read_record(&mut record).map_err(|error| DataError::new(name, error))? {
         let first = record.position().map_or(1, csv::Position::line) as usize;
-        let line = lines[first - 1].0;
+        let line = numbers.get(first - 1).copied().unwrap_or_default();
         // Spreadsheets end rows with empty cells.
         let n_empty = record.iter().rev().take_while(|cell| cell.is_empty()).count();
         let fits = record.len() >= n_columns && record.len() - n_empty <= n_columns;
@@ -625,7 +628,9 @@ fn split_uncertainties(header: &mut Vec<String>, cells: Cells) -> Cells {
 
 /// Returns the number of digits of a bare number after the decimal point, less the exponent.
 fn decimals(number: &str) -> Option<i32> {
-    number.parse::<f64>().ok()?;
+    if !number.bytes().all(|byte| byte.is_ascii_digit() || b".eE+-".contains(&byte)) {
+        return None;
+    }
     let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     let digits = mantissa.split_once('.').map_or(0, |(_, after)| after.len() as i32);
     Some(digits - exponent.parse::<i32>().unwrap_or(0))
