@@ -5,8 +5,6 @@
 pub(super) struct Cells {
     n_columns: usize,
     text: String,
-    /// Where the first cell begins in `text`.
-    start: usize,
     /// Where each cell ends.
     ends: Vec<usize>,
     lines: Vec<u64>,
@@ -14,7 +12,7 @@ pub(super) struct Cells {
 
 impl Cells {
     pub fn new(n_columns: usize) -> Self {
-        Self { n_columns, text: String::new(), start: 0, ends: Vec::new(), lines: Vec::new() }
+        Self { n_columns, text: String::new(), ends: Vec::new(), lines: Vec::new() }
     }
 
     /// Adds a row. Cells beyond the columns are left out, and cells that are not there are empty.
@@ -26,27 +24,23 @@ impl Cells {
         self.lines.push(line);
     }
 
-    /// Removes the first row.
-    pub fn remove_first(&mut self) {
-        let last = self.ends.drain(..self.n_columns).next_back();
-        self.start = last.unwrap_or(self.start);
-        self.lines.remove(0);
-    }
-
-    /// Returns the cells without some rows.
-    pub fn without(self, is_left_out: impl Fn(&Self, usize) -> bool) -> Self {
-        if !(0..self.n_rows()).any(|row| is_left_out(&self, row)) {
-            return self;
+    /// Keeps the rows of which a function of a line and its cells is true.
+    pub fn retain(&mut self, mut is_kept: impl FnMut(u64, &[&str]) -> bool) {
+        let mut row = Vec::new();
+        let is_kept: Vec<bool> = (0..self.n_rows())
+            .map(|k| {
+                row.clear();
+                row.extend(self.cells(k));
+                is_kept(self.line(k), &row)
+            })
+            .collect();
+        if is_kept.contains(&false) {
+            let mut rest = Self::new(self.n_columns);
+            for k in (0..self.n_rows()).filter(|k| is_kept[*k]) {
+                rest.push(self.line(k), self.cells(k));
+            }
+            *self = rest;
         }
-        let mut rest = Self::new(self.n_columns);
-        for row in (0..self.n_rows()).filter(|row| !is_left_out(&self, *row)) {
-            rest.push(self.line(row), (0..self.n_columns).map(|column| self.cell(row, column)));
-        }
-        rest
-    }
-
-    pub fn n_columns(&self) -> usize {
-        self.n_columns
     }
 
     pub fn n_rows(&self) -> usize {
@@ -60,12 +54,16 @@ impl Cells {
     /// Returns the text of a cell.
     pub fn cell(&self, row: usize, column: usize) -> &str {
         let k = row * self.n_columns + column;
-        let start = k.checked_sub(1).map_or(self.start, |before| self.ends[before]);
+        let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.text[start..self.ends[k]]
+    }
+
+    fn cells(&self, row: usize) -> impl Iterator<Item = &str> {
+        (0..self.n_columns).map(move |column| self.cell(row, column))
     }
 
     /// Returns the texts of a row.
     pub fn row(&self, row: usize) -> Vec<String> {
-        (0..self.n_columns).map(|column| self.cell(row, column).to_string()).collect()
+        self.cells(row).map(str::to_string).collect()
     }
 }

@@ -69,6 +69,10 @@ pub(super) fn with_signs_named(header: Vec<String>) -> Vec<String> {
 /// Returns a value and its uncertainty from a cell such as `0.91 ± 0.02` or `30 ± 0.5 cm/s`, each with its unit; `None` for
 /// any other cell. An uncertainty in per cents is a share of the value.
 pub(super) fn value_and_uncertainty(cell: &str) -> Option<[String; 2]> {
+    // A record has millions of plain numbers.
+    if !cell.contains(['±', '+', '(']) {
+        return None;
+    }
     let Some((value, uncertainty)) = SIGNS.iter().find_map(|sign| cell.split_once(sign)) else {
         return of_last_digits(cell);
     };
@@ -125,7 +129,9 @@ pub(super) fn with_units(
     row: &[String],
     next: &[String],
 ) -> Option<Vec<String>> {
-    let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
+    let is_number = |cell: &str| {
+        parse_quantity(&with_point(cell)).is_ok() || value_and_uncertainty(cell).is_some()
+    };
     // `1/MPa` is a unit.
     if row.iter().any(|cell| is_number(cell) && !cell.starts_with("1/")) {
         return None;
@@ -148,7 +154,8 @@ pub(super) fn with_units(
 
 /// Whether a cell has no value.
 pub(super) fn is_missing(cell: &str) -> bool {
-    is_one_of(&cell.to_ascii_lowercase(), " nan na n/a n.a. #n/a null - --")
+    !cell.starts_with(|first: char| first.is_ascii_digit())
+        && " nan na n/a n.a. #n/a null - --".split(' ').any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Returns a number with a decimal comma, such as `0,92` or `5,5 cm/s`, with a point; any other text is unchanged.

@@ -14,14 +14,15 @@ use fem_material::engineering::number;
 
 use super::cells::Cells;
 use super::column_roles::{
-    bare, before_brackets, column_names, ending_of, is_key, is_one_of, readings, uncertainty_of,
+    UnitSuffix, bare, before_brackets, column_names, ending_of, is_key, is_one_of, readings,
+    uncertainty_of,
 };
 use super::csv_dialect::{
     column_name, is_mean, is_missing, value_and_uncertainty, with_point, with_signs_named,
     with_units,
 };
 use super::data_error::{DataError, one_line};
-use super::layouts::{as_table, is_comment, separator, tabs_for_blanks, without_preamble};
+use super::layouts::{Line, table_lines};
 
 /// A table in memory with its cells as text, which are kept in one string.
 ///
@@ -83,7 +84,7 @@ impl Table {
     /// # Errors
     /// The text is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
-        Self::read(name, text, None)
+        Self::read(name, text, false)
     }
 
     /// Parses the record of an instrument: the settings of an oscilloscope beside its samples are left out, and rows may be
@@ -105,57 +106,61 @@ impl Table {
     /// # Ok::<(), fem_data::table::DataError>(())
     /// ```
     pub fn of_record(name: &str, text: &str) -> Result<Self, DataError> {
-        let (text, n_added) = as_table(text.trim_start_matches('\u{feff}'));
-        Self::read(name, &text, Some(n_added))
+        Self::read(name, text, true)
     }
 
-    /// Reads a table, or a record of an instrument with the number of lines that its text does not have. Rows of a table are as long as
-    /// the header; those of a record have any length.
-    fn read(name: &str, text: &str, added_to_record: Option<u64>) -> Result<Self, DataError> {
-        let n_added = added_to_record.unwrap_or(0);
-        let name = one_line(name);
+    fn read(name: &str, text: &str, is_record: bool) -> Result<Self, DataError> {
         let text = text.trim_start_matches('\u{feff}');
         if PACKED.iter().any(|mark| text.starts_with(mark)) {
             let error =
-                DataError::new(&name, "this is a spreadsheet or another packed file, not text");
+                DataError::new(name, "this is a spreadsheet or another packed file, not text");
             return Err(error.with_help("save the table as CSV, and name that file"));
         }
-        let text = without_preamble(text, added_to_record.is_none());
-        let text = &*tabs_for_blanks(&text);
-        let (separator, below) = separator(text);
-        // The line `sep=;` becomes a comment, so that all lines keep their numbers.
-        let text = match below.len() < text.len() {
-            true => Cow::Owned(format!("#{text}")),
-            false => Cow::Borrowed(text),
-        };
-        let (header, header_line) = named_columns(&name, &text, separator)?;
-        let mut header = with_signs_named(header);
-        let cells = cells(&name, &text, separator, header.len(), added_to_record)?;
-        let (cells, left_out) = without_means(cells);
-        let mut cells = split_uncertainties(&mut header, cells);
-        let names = header.clone();
+        Self::of_lines(name, table_lines(text, is_record), is_record)
+    }
+
+    /// Reads lines from the header on, whose cells are separated by a character. Rows of a table are as long as the header; those of
+    /// a record have any length.
+    pub(super) fn of_lines(
+        name: &str,
+        (lines, separator): (Vec<Line<'_>>, u8),
+        is_record: bool,
+    ) -> Result<Self, DataError> {
+        let name = one_line(name);
+        let header_line = lines.first().map_or(1, |(line, _)| *line);
+        let (header, mut cells) = grid(&name, lines, separator, is_record)?;
+        let names: Vec<String> = header.iter().map(|cell| column_name(cell)).collect();
+        let mut header = with_signs_named(names.clone());
         let mut units = None;
         if cells.n_rows() > 1
             && let Some(with_units) = with_units(&header, &cells.row(0), &cells.row(1))
         {
             header = with_units;
             units = Some(cells.row(0));
-            cells.remove_first();
         }
-        // Instruments repeat names and units above each step.
-        let cells = cells.without(|cells, row| {
-            let all = |is: &dyn Fn(&str, usize) -> bool| {
-                (0..names.len()).all(|column| is(cells.cell(row, column), column))
+        let mean = |row: &[&str]| {
+            let first = row.iter().find(|cell| !cell.is_empty())?;
+            is_mean(first).then(|| first.to_string())
+        };
+        let mut left_out = Vec::new();
+        cells.retain(|line, row| {
+            if let Some(word) = mean(row) {
+                left_out.push(format!("line {line} is left out: {word}"));
+                return false;
+            }
+            // Instruments repeat names and units above each step.
+            let is_name = |(cell, name): (&&str, &String)| {
+                cell.parse::<f64>().is_err() && column_name(cell) == **name
             };
-            all(&|cell, column| cell.parse::<f64>().is_err() && column_name(cell) == names[column])
-                || units.as_ref().is_some_and(|units| all(&|cell, column| cell == units[column]))
+            !row.iter().zip(&names).all(is_name)
+                && units.as_deref().is_none_or(|units| row != units)
         });
+        let cells = split_uncertainties(&mut header, cells);
         let logarithmic = logarithms(&mut header);
         if cells.n_rows() == 0 {
             return Err(DataError::new(&name, "there is no row below the header"));
         }
-        let has_decimal_commas = separator != b',';
-        let (named, header_line) = (Vec::new(), header_line.saturating_sub(n_added).max(1));
+        let (has_decimal_commas, named) = (separator != b',', Vec::new());
         let table = Self {
             name,
             header,
@@ -186,24 +191,24 @@ impl Table {
 
     /// Rejects a comma in a number if other numbers of the table have points: one of the two separates thousands.
     fn check_decimal_signs(&self) -> Result<(), DataError> {
-        if !self.has_decimal_commas {
-            return Ok(());
-        }
         let with = |sign: char| {
-            let is_it = |(row, column): &(usize, usize)| {
-                let cell = self.text(*row, *column);
-                cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok()
-            };
             let columns = 0..self.header.len();
             let mut cells =
                 (0..self.n_rows()).flat_map(|row| columns.clone().map(move |it| (row, it)));
-            cells.find(is_it).map(|(row, column)| (row, self.text(row, column)))
+            let is_it =
+                |cell: &str| cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok();
+            cells.find(|(row, column)| is_it(self.text(*row, *column)))
         };
-        let (Some((_, point)), Some((row, comma))) = (with('.'), with(',')) else { return Ok(()) };
-        let message = format!("\"{comma}\" has a comma, and \"{point}\" a point");
-        Err(self.fault(row, message).with_help(
-            "write all numbers with decimal points or all with decimal commas, and no separator of thousands",
-        ))
+        if self.has_decimal_commas
+            && let (Some(point), Some(comma)) = (with('.'), with(','))
+        {
+            let [point, with_comma] = [point, comma].map(|(row, column)| self.text(row, column));
+            let message = format!("\"{with_comma}\" has a comma, and \"{point}\" a point");
+            return Err(self.fault(comma.0, message).with_help(
+                "write all numbers with decimal points or all with decimal commas, and no separator of thousands",
+            ));
+        }
+        Ok(())
     }
 
     /// Returns the table with columns renamed: `speed` for a column `v`. A name without a unit keeps that of the header.
@@ -395,11 +400,22 @@ impl Table {
     /// # Errors
     /// The cell has another text.
     pub fn number(&self, row: usize, column: usize, dimension: [i32; 3]) -> Result<f64, DataError> {
+        self.value(row, column, dimension, ending_of(&self.header[column]))
+    }
+
+    /// Returns a cell as a number of a dimension in a column whose name ends in a unit.
+    fn value(
+        &self,
+        row: usize,
+        column: usize,
+        dimension: [i32; 3],
+        ending: Option<UnitSuffix>,
+    ) -> Result<f64, DataError> {
         let (text, header) = (self.text(row, column), &self.header[column]);
         let fault = |found: String| {
             self.fault(row, format!("{header} is \"{text}\", {found}")).in_column(header)
         };
-        let cell = if self.has_decimal_commas { with_point(text) } else { text.into() };
+        let cell = self.with_point(text);
         let plain = cell.parse::<f64>().ok().filter(|value| value.is_finite());
         let read = plain.map_or_else(|| parse_quantity(&cell), |value| Ok((value, PLAIN)));
         let (value, found) = read.map_err(|_| {
@@ -414,8 +430,8 @@ impl Table {
             }
         })?;
         let [m, kg, s] = dimension;
-        let is_bare = found.0 == [0; 4];
-        match ending_of(header) {
+        let is_bare = found == PLAIN;
+        match ending {
             Some(ending) if ending.dimension != dimension => {
                 let message = format!(
                     "in a column whose name ends in {}, a unit of another dimension",
@@ -439,34 +455,27 @@ impl Table {
         }
     }
 
+    /// Returns a number with a decimal point.
+    fn with_point<'a>(&self, text: &'a str) -> Cow<'a, str> {
+        if self.has_decimal_commas { with_point(text) } else { text.into() }
+    }
+
     /// Returns the numbers of a column of a dimension (exponents of metre, kilogram, second), SI, one for each row.
     ///
     /// # Errors
     /// A cell has another text, or the unit of the column is of another dimension.
     pub fn numbers(&self, column: usize, dimension: [i32; 3]) -> Result<NumberColumn, DataError> {
-        let header = &self.header[column];
-        // The factor of bare numbers; other cells, and columns of another unit, are read one by one.
-        let factor = match ending_of(header) {
-            _ if self.logarithmic.contains(&column) => None,
-            Some(ending) => (ending.dimension == dimension).then_some(ending.scale),
-            None => (dimension == [0; 3] || !header.contains(['[', '('])).then_some(1.0),
-        };
-        let mut values = Vec::with_capacity(self.n_rows());
-        let mut last_digit = None;
+        let ending = ending_of(&self.header[column]);
+        let (mut values, mut last_digit) = (Vec::with_capacity(self.n_rows()), None);
         for row in 0..self.n_rows() {
-            let text = self.text(row, column);
-            let point = if self.has_decimal_commas { with_point(text) } else { text.into() };
-            let bare = point.parse::<f64>().ok().filter(|value| value.is_finite());
-            if bare.is_some() {
-                last_digit = last_digit.max(Some(decimals(&point)));
+            if self.is_missing(row, column) {
+                values.push(f64::NAN);
+                continue;
             }
-            values.push(match (bare, factor) {
-                (Some(bare), Some(factor)) => bare * factor,
-                (None, _) if is_missing(text) => f64::NAN,
-                _ => self.number(row, column, dimension)?,
-            });
+            last_digit = last_digit.max(decimals(&self.with_point(self.text(row, column))));
+            values.push(self.value(row, column, dimension, ending)?);
         }
-        let scale = ending_of(&self.header[column]).map_or(1.0, |ending| ending.scale);
+        let scale = ending.map_or(1.0, |ending| ending.scale);
         let resolution = last_digit.map_or(0.0, |n| scale * 10f64.powi(-n));
         Ok(NumberColumn { values, resolution })
     }
@@ -529,64 +538,42 @@ impl Table {
     }
 }
 
-fn reader(text: &str, separator: u8) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .delimiter(separator)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes())
-}
-
-/// Returns the names of the columns of a text, and their line.
-fn named_columns(name: &str, text: &str, separator: u8) -> Result<(Vec<String>, u64), DataError> {
-    let mut reader = reader(text, separator);
-    let header = reader.headers().map_err(|error| DataError::new(name, error))?;
-    let line = text.lines().position(|line| !is_comment(line)).unwrap_or(0) as u64 + 1;
-    let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
-    if header.is_empty() || !header.iter().all(is_number) {
-        return Ok((header.iter().map(column_name).collect(), line));
-    }
-    let error = DataError::new(name, "the first row is of numbers: there is no header");
-    Err(error.in_line(line).with_help(
-        "write a line above it that names the columns, such as speed_m_s,restitution or \
-         frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
-    ))
-}
-
-/// Returns the cells of the rows below the header of a text.
-fn cells(
+/// Returns the names of the columns, and the cells of the rows below them.
+fn grid(
     name: &str,
-    text: &str,
+    lines: Vec<Line<'_>>,
     separator: u8,
-    n_columns: usize,
-    added_to_record: Option<u64>,
-) -> Result<Cells, DataError> {
-    let lines: Vec<&str> = text.lines().collect();
-    // The reader counts comments above a row to the row.
-    let place = |position: Option<&csv::Position>| {
-        let first = position.map_or(0, csv::Position::line) as usize;
-        let above = lines.iter().skip(first.saturating_sub(1));
-        let line = (first + above.take_while(|line| is_comment(line)).count()) as u64;
-        line.saturating_sub(added_to_record.unwrap_or(0))
+    is_record: bool,
+) -> Result<(Vec<String>, Cells), DataError> {
+    let (mut text, mut numbers) = (String::new(), Vec::with_capacity(lines.len()));
+    for (number, line) in lines {
+        text.extend([&*line, "\n"]);
+        numbers.push(number);
+    }
+    let mut reader = csv::ReaderBuilder::new();
+    let reader = reader.delimiter(separator).flexible(true).trim(csv::Trim::All);
+    let mut reader = reader.from_reader(text.as_bytes());
+    let header: Vec<String> = match reader.headers() {
+        Ok(header) => header.iter().map(str::to_string).collect(),
+        Err(error) => return Err(DataError::new(name, error)),
     };
-    let mut cells = Cells::new(n_columns);
-    let mut reader = reader(text, separator);
+    let is_number = |cell: &String| parse_quantity(&with_point(cell)).is_ok();
+    if !header.is_empty() && header.iter().all(is_number) {
+        let error = DataError::new(name, "the first row is of numbers: there is no header");
+        return Err(error.in_line(numbers[0]).with_help(
+            "write a line above it that names the columns, such as speed_m_s,restitution or \
+             frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
+        ));
+    }
+    let (mut cells, n_columns) = (Cells::new(header.len()), header.len());
     let mut record = csv::StringRecord::new();
-    loop {
-        match reader.read_record(&mut record) {
-            Ok(true) => {}
-            Ok(false) => return Ok(cells),
-            Err(error) => {
-                let line = place(error.position());
-                return Err(DataError::new(name, error).in_line(line));
-            }
-        }
-        let line = place(record.position());
+    while reader.read_record(&mut record).map_err(|error| DataError::new(name, error))? {
+        let first = record.position().map_or(1, csv::Position::line) as usize;
+        let line = numbers.get(first - 1).copied().unwrap_or_default();
         // Spreadsheets end rows with empty cells.
         let n_empty = record.iter().rev().take_while(|cell| cell.is_empty()).count();
         let fits = record.len() >= n_columns && record.len() - n_empty <= n_columns;
-        if added_to_record.is_none() && !fits {
+        if !is_record && !fits {
             let n_cells = (record.len() - n_empty).max(record.len().min(n_columns));
             let message = format!("{n_cells} cells below a header of {n_columns}");
             let error = DataError::new(name, message).in_line(line);
@@ -594,6 +581,7 @@ fn cells(
         }
         cells.push(line, record.iter());
     }
+    Ok((header, cells))
 }
 
 /// Gives columns of decimal logarithms the name of their quantity, `time_s` for `log_time_s`, and returns them.
@@ -611,41 +599,25 @@ fn logarithms(header: &mut [String]) -> Vec<usize> {
     found
 }
 
-/// Returns the cells without the rows below a series that spreadsheets compute, and a sentence about each.
-fn without_means(cells: Cells) -> (Cells, Vec<String>) {
-    fn mean(cells: &Cells, row: usize) -> Option<&str> {
-        let mut values = (0..cells.n_columns()).map(|column| cells.cell(row, column));
-        values.find(|cell| !cell.is_empty()).filter(|cell| is_mean(cell))
-    }
-    let sentence = |row: usize| {
-        let word = mean(&cells, row)?;
-        Some(format!("line {} is left out: {word}", cells.line(row)))
-    };
-    let left_out = (0..cells.n_rows()).filter_map(sentence).collect();
-    (cells.without(|cells, row| mean(cells, row).is_some()), left_out)
-}
-
 /// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.
 fn split_uncertainties(header: &mut Vec<String>, cells: Cells) -> Cells {
-    let has_two = |column: usize| {
-        (0..cells.n_rows()).any(|row| value_and_uncertainty(cells.cell(row, column)).is_some())
+    let has_two = |column: &usize| {
+        let mut rows = 0..cells.n_rows();
+        rows.any(|row| value_and_uncertainty(cells.cell(row, *column)).is_some())
+            && !header.contains(&uncertainty_of(&header[*column]))
     };
-    let is_split: Vec<bool> = (0..header.len())
-        .map(|column| !header.contains(&uncertainty_of(&header[column])) && has_two(column))
-        .collect();
-    let columns: Vec<usize> = (0..header.len()).filter(|column| is_split[*column]).collect();
+    let columns: Vec<usize> = (0..header.len()).filter(has_two).collect();
     if columns.is_empty() {
         return cells;
     }
-    header
-        .extend(columns.iter().map(|column| uncertainty_of(&header[*column])).collect::<Vec<_>>());
+    let names: Vec<_> = columns.iter().map(|column| uncertainty_of(&header[*column])).collect();
+    header.extend(names);
     let mut all = Cells::new(header.len());
     for row in 0..cells.n_rows() {
         let mut values = cells.row(row);
         for &column in &columns {
-            let found = value_and_uncertainty(&values[column]);
-            let [value, uncertainty] =
-                found.unwrap_or_else(|| [values[column].clone(), String::new()]);
+            let [value, uncertainty] = value_and_uncertainty(&values[column])
+                .unwrap_or_else(|| [values[column].clone(), String::new()]);
             values[column] = value;
             values.push(uncertainty);
         }
@@ -654,11 +626,14 @@ fn split_uncertainties(header: &mut Vec<String>, cells: Cells) -> Cells {
     all
 }
 
-/// Returns the number of digits after the decimal point, less the exponent.
-fn decimals(number: &str) -> i32 {
+/// Returns the number of digits of a bare number after the decimal point, less the exponent.
+fn decimals(number: &str) -> Option<i32> {
+    if !number.bytes().all(|byte| byte.is_ascii_digit() || b".eE+-".contains(&byte)) {
+        return None;
+    }
     let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     let digits = mantissa.split_once('.').map_or(0, |(_, after)| after.len() as i32);
-    digits - exponent.parse::<i32>().unwrap_or(0)
+    Some(digits - exponent.parse::<i32>().unwrap_or(0))
 }
 
 /// Returns the column of a name, which may lack the unit if only one column fits.

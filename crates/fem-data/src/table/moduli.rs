@@ -471,7 +471,7 @@ impl ModulusTable {
             roles.iter().any(is_modulus) && roles.iter().any(|it| it.is_abscissa())
         };
         let blocks = with_temperature_column(text, is_header);
-        let blocks = blocks.and_then(|text| Table::parse(name, &text).ok());
+        let blocks = blocks.and_then(|lines| Table::of_lines(name, lines, false).ok());
         blocks.filter(has_temperature).map_or(found, Ok)
     }
 

@@ -172,6 +172,7 @@ fn tables_of_papers_and_spreadsheets_are_read() {
         ("v in mph,e,std. dev.\n10,0.91,0.02\n20,0.9,0.02\n", 4.4704, Some(0.02)),
         ("v,e\n30 ± 0.5 cm/s,0.5 ± 10 %\n40 ± 0.5 cm/s,0.4 ± 10 %\n", 0.3, Some(0.05)),
         ("v (m/s);COR (%)\n0,5;91 ± 2\n1;90 ± 2\n", 0.5, Some(0.02)),
+        ("v,e\ncm/s,%\n50 ± 1,91 ± 2\n60 ± 1,90 ± 2\n", 0.5, Some(0.02)),
         ("v, m/s;e\n0,5;0,91\n1;0,9\n", 0.5, None),
         ("v,e\n0.5,0.91(2)\n1,0.90(2)\n", 0.5, Some(0.02)),
         ("Glass on glass\nv,e\n0.5,0.91\n1,0.90\n", 0.5, None),

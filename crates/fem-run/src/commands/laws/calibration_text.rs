@@ -13,13 +13,18 @@ use crate::text::tables::{hanging, headed, show_value};
 /// Smaller relative changes are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Returns the whole text or, in short, one without the combinations of weights.
+/// Returns the whole text or, in short, one without settings and combinations of weights, and without weights if no series fits.
 pub fn calibration_text(found: &Calibration, warnings: &[String], detail: Detail) -> String {
-    let mut text = heading(found);
-    text += &weights(found);
-    text += &prior(found);
-    text += &inputs(found);
-    text += "\n";
+    let mut text = answer(found);
+    if detail == Detail::All {
+        text += &settings(found);
+    }
+    if detail == Detail::All || found.why_none_fits().is_none() {
+        text += &weights(found);
+        text += &prior(found);
+        text += &inputs(found);
+        text += "\n";
+    }
     if detail == Detail::All {
         text += &combinations(found);
         text += "\n";
@@ -38,7 +43,7 @@ pub fn calibration_text(found: &Calibration, warnings: &[String], detail: Detail
         },
         number(found.maxwell.rms, 3)
     ));
-    if let Some(exponent) = found.loss_exponent() {
+    if let Some(exponent) = found.loss_exponent().filter(|_| detail == Detail::All) {
         let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
         text += &hanging(&format!(
             "1 - e is proportional to speed^{:.3}{error} (Prony series give powers from -0.2 to 0.2)\n",
@@ -54,7 +59,31 @@ pub fn calibration_text(found: &Calibration, warnings: &[String], detail: Detail
     text
 }
 
-fn heading(found: &Calibration) -> String {
+fn moduli(found: &Calibration) -> &'static str {
+    match found.acts_on() {
+        ActsOn::All => "all moduli",
+        ActsOn::Shear => "the shear modulus",
+    }
+}
+
+fn answer(found: &Calibration) -> String {
+    let [total, ..] = found.moments();
+    let none =
+        found.why_none_fits().map(|why| format!("no Prony series fits these data: {why}\n\n"));
+    let mut text = none.unwrap_or_default();
+    text += &hanging(&format!(
+        "{} (between {} and {}) of {} of {} relaxes; rms error of the restitution {}\n\n",
+        number(total.value, 3),
+        number(total.low, 3),
+        number(total.high, 3),
+        moduli(found),
+        found.target.material,
+        number(found.fit.rms, 2),
+    ));
+    text
+}
+
+fn settings(found: &Calibration) -> String {
     let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let span = |(low, high): (f64, f64), unit: &str| match low == high {
         true => show(low, unit),
@@ -64,25 +93,10 @@ fn heading(found: &Calibration) -> String {
         CalibrationModel::Condensed => "condensed",
         CalibrationModel::Ting => "ting with finite size",
     };
-    let moduli = match found.acts_on() {
-        ActsOn::All => "all moduli",
-        ActsOn::Shear => "the shear modulus",
-    };
-    let [total, ..] = found.moments();
-    let none =
-        found.why_none_fits().map(|why| format!("no Prony series fits these data: {why}\n\n"));
-    let mut text = none.unwrap_or_default();
-    text += &hanging(&format!(
-        "{} (between {} and {}) of {moduli} of {} relaxes; rms error of the restitution {}\n\n",
-        number(total.value, 3),
-        number(total.low, 3),
-        number(total.high, 3),
-        found.target.material,
-        number(found.fit.rms, 2),
-    ));
-    text += &hanging(&format!(
-        "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
+    let mut text = hanging(&format!(
+        "{name}; {} of {} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
         counted(found.times.len(), "term"),
+        moduli(found),
         found.target.material,
         number(found.regularisation, 3),
         counted(found.measured.data.points.len(), "point"),

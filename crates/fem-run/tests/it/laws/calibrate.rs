@@ -16,7 +16,7 @@ fn calibrate_one_point_determines_one_of_four_combinations() {
     let place = Place::with(GLASS);
     place.write("glass.csv", GLASS_POINT);
     place
-        .succeed("calibrate case.toml --data glass.csv")
+        .succeed("calibrate case.toml --data glass.csv --verbose")
         .prints("the data determine 1 of 4 combinations|8.0 elements across the smallest");
     let files = ["calibrate.json", "calibrate.svg", "relaxation.toml", "residuals.csv"];
     assert_eq!(place.list("runs/glass_calibrate"), files);
@@ -48,7 +48,9 @@ fn calibrate_explains_data_that_no_maxwell_series_reproduces() {
     let place = Place::with(ICE);
     place.write("ice.csv", BRIDGES);
     let calibrate = "calibrate case.toml --data ice.csv --model ting --terms 3";
-    place.succeed(calibrate).prints("restitution falls with speed|neither a single Maxwell term (weight 1) nor any series fits these data|no series of these relaxation times fits these data");
+    let printed = place.succeed(calibrate);
+    printed.prints("restitution falls with speed|neither a single Maxwell term (weight 1) nor any series fits these data|no series of these relaxation times fits these data");
+    assert!(printed.stdout.lines().count() <= 24, "{}", printed.stdout);
     let svg = place.text("runs/ice_calibrate/calibrate.svg");
     for label in ["slopes of any Prony series", "single Maxwell term", "best fit", "data"] {
         assert!(svg.contains(label), "{label}");
@@ -61,7 +63,7 @@ fn nine_pairings_share_a_series() {
     let place = Place::with(GLASS);
     place.write("nine.csv", PAIRINGS);
     // The relaxation times of the series, 10 and 300 µs.
-    let times = "--terms 2 --times '10 us..300 us'";
+    let times = "--verbose --terms 2 --times '10 us..300 us'";
     place
         .succeed(("calibrate case.toml --data nine.csv", times))
         .prints("45 points of nine.csv, 9 pairs");
