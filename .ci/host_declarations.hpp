@@ -8,6 +8,7 @@
 #include <string>
 
 #if defined(HOST_LIGGGHTS)
+#define FLERR __FILE__, __LINE__
 enum { CONTACT_NORMAL_MODEL = 1 };
 struct LAMMPS;
 struct IContactHistorySetup { virtual int add_history_value(std::string, std::string) = 0; };
@@ -21,6 +22,8 @@ struct ForceData { double delta_F[3]; };
 struct NormalModelBase {
   NormalModelBase(LAMMPS *, IContactHistorySetup *, ContactModelBase *);
   struct { double dt; } *update;
+  struct { int oneatom, pgsize; } *neighbor;
+  struct { void all(const char *, int, const char *); } *error;
   virtual void registerSettings(Settings &) = 0;
   virtual void postSettings(IContactHistorySetup *, ContactModelBase *) = 0;
   virtual void connectToProperties(PropertyRegistry &) = 0;
