@@ -3,7 +3,7 @@
 use fem::calibrate::{Abscissa, Calibration};
 use fem::fit::cradle::{Swing, Trial};
 use fem::fit::{Fit, FitError, Model};
-use fem::laws::{DemExport, FittedLaw, LawFit, LawRanking};
+use fem::laws::{DemExport, FittedLaw, LawExport, LawFit, LawRanking};
 use fem_case::Scene;
 use fem_case::engineering::number;
 use fem_case::engineering::show;
@@ -209,6 +209,40 @@ pub fn export_figure(fitted: &DemExport) -> String {
         ),
     ];
     fem_figure::svg(&charts).unwrap_or_default()
+}
+
+/// Smallest error of e that a figure shows.
+const LEAST_ERROR: f64 = 1e-5;
+
+/// Returns `export.svg` of a law to compile: restitution over speed of its model, of the law, and of laws that codes have, and the errors.
+pub fn compiled_law_figure(export: &LawExport, own: &[FittedLaw]) -> String {
+    let model = || export.law.curve.iter().map(|[speed, e, _]| (*speed, *e));
+    let compiled = model().zip(&export.made).map(|((speed, _), e)| (speed, *e)).collect();
+    let mut curves = vec![("the exported law", compiled)];
+    // The linear law has the restitution of the other one with a constant e.
+    curves.extend(own.iter().filter(|law| law.model.family() != LawFamily::Linear).map(|law| {
+        let made =
+            |(speed, _)| (speed, law.outcome(speed).map_or(f64::NAN, |made| made.restitution));
+        (law.name(), model().map(made).collect::<Vec<_>>())
+    }));
+    let speed = quantity_axis("approach speed", "m/s", export.speeds()[1]).logarithmic();
+    let restitutions = Chart::new(speed.clone(), Axis::new("restitution e"));
+    let errors = Chart::new(speed, Axis::new("error of e").logarithmic());
+    let mut charts = [restitutions, errors];
+    for ((name, points), k) in curves.into_iter().zip([0, 2, 3, 4, 5, 6]) {
+        let error = |((speed, made), (_, e)): (&(f64, f64), (f64, f64))| {
+            (*speed, (made - e).abs().max(LEAST_ERROR))
+        };
+        let of_error = points.iter().zip(model()).map(error).collect();
+        let [left, right] = charts;
+        charts = [
+            left.with(Curve::line(name, points).like_curve(k)),
+            right.with(Curve::line(name, of_error).like_curve(k)),
+        ];
+    }
+    let [left, right] = charts;
+    let left = left.with(Curve::points(export.model.clone(), model().collect()).like_curve(1));
+    fem_figure::svg(&[left, right]).unwrap_or_default()
 }
 
 /// Returns `cradle.svg`: the restitution of each trial over its approach speed.

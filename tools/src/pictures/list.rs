@@ -21,13 +21,14 @@ pub enum Source {
 }
 
 /// Files beside the shipped cases: a case and sweeps.
-pub const OWN_CASES: [(&str, &str); 6] = [
+pub const OWN_CASES: [(&str, &str); 7] = [
     ("ball.toml", include_str!("ball.toml")),
     ("keys.toml", include_str!("keys.toml")),
     ("metal.toml", include_str!("metal.toml")),
     ("metal_laws.toml", include_str!("metal_laws.toml")),
     ("relaxation.toml", include_str!("relaxation.toml")),
     ("sizes.toml", include_str!("sizes.toml")),
+    ("steel.toml", include_str!("../../../docs/law/steel.toml")),
 ];
 
 const fn figure(
@@ -54,7 +55,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 33] = [
+pub const PICTURES: [Picture; 35] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -66,6 +67,8 @@ pub const PICTURES: [Picture; 33] = [
     figure("sweep.svg", &["sweep cases/sweep_speed.toml"], "runs/sweep_speed/sweep.svg"),
     figure("sweep-keys.svg", &["sweep cases/keys.toml"], "runs/keys/sweep.svg"),
     figure("metal-laws.svg", &["sweep cases/metal_laws.toml"], "runs/metal_laws/sweep.svg"),
+    figure("law-glass.svg", &["export cases/glass_0.5ms.toml --law --out law"], "law/export.svg"),
+    figure("law-steel.svg", &["export cases/steel.toml --law --out steel"], "steel/export.svg"),
     figure(
         "cradle.svg",
         &[

@@ -14,7 +14,7 @@ pub const PAIR_CHECK: &str = include_str!("pair_check.c");
 const TEMPLATE: &str = include_str!("pair_law.h.txt");
 
 /// The texts of all programs beside a header.
-const HOSTS: &str = include_str!("hosts.txt");
+const HOSTS: [&str; 2] = [include_str!("hosts.txt"), include_str!("hosts_dem.txt")];
 
 /// The contact law of a pair, the content of its header, SI.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,11 +157,13 @@ impl PairLaw {
         self.filled(TEMPLATE)
     }
 
-    /// Returns the programs beside the header, by the names of their files.
+    /// Returns the programs beside the header, by the names of their files, without those that have no line for this law.
     pub fn hosts(&self) -> Vec<(String, String)> {
-        let blocks = HOSTS.split("\n@ ").skip(1).filter_map(|block| block.split_once('\n'));
+        let blocks = HOSTS.iter().flat_map(|hosts| hosts.split("\n@ ").skip(1));
         blocks
+            .filter_map(|block| block.split_once('\n'))
             .map(|(name, text)| (self.filled(name).trim().to_string(), self.filled(text)))
+            .filter(|(_, text)| !text.trim().is_empty())
             .collect()
     }
 

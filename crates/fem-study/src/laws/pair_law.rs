@@ -54,6 +54,8 @@ pub struct LawExport {
     pub contact_ratio: f64,
     /// The impacts of that model at the speeds of the law's curve, without adhesion.
     pub impacts: Vec<ImpactQuantities>,
+    /// Restitution of the law at these speeds, at 100 steps per contact.
+    pub made: Vec<f64>,
 }
 
 /// The results of the model at a speed.
@@ -71,6 +73,22 @@ impl Computed {
         let hertz =
             || HertzImpact::new(pair, self.speed).map_or(f64::NAN, |hertz| hertz.contact_time());
         Some(self.quantities.contact_time).filter(|time| time.is_finite()).unwrap_or_else(hertz)
+    }
+
+    /// Returns restitution, contact time over the time scale, and largest force (N) of a law.
+    fn made_by(&self, repulsion: &Repulsion, pair: &Pair) -> [f64; 3] {
+        let time = self.time_scale(pair);
+        let [e, contact_time, force] =
+            repulsion.impact(pair.effective_mass(), self.speed, time / N_STEPS);
+        [e, contact_time / time, force]
+    }
+
+    /// Returns the errors of a law that makes these: of e, and of T and F relative.
+    fn errors_of(&self, [e, time_ratio, force]: [f64; 3]) -> [f64; 3] {
+        let Self { quantities, .. } = self;
+        let parts = quantities.contact_time.is_finite() && time_ratio.is_finite();
+        let of_time = if parts { (time_ratio - 1.0).abs() } else { 0.0 };
+        [(e - quantities.restitution).abs(), of_time, (force / quantities.peak_force - 1.0).abs()]
     }
 }
 
@@ -95,7 +113,9 @@ impl LawExport {
         let pair = scene.pair().map_err(FitError::from)?;
         let repulsion = source.repulsion(&pair)?;
         let adhesion = adhesion_of(scene, &pair);
-        let errors = source.computed.iter().map(|at| error_of(&repulsion, &pair, at));
+        let made = source.computed.iter().map(|at| at.made_by(&repulsion, &pair));
+        let made: Vec<[f64; 3]> = made.collect();
+        let errors = source.computed.iter().zip(&made).map(|(at, made)| at.errors_of(*made));
         let errors: Vec<[f64; 3]> = errors.collect();
         let largest = |k: usize| errors.iter().map(|error| error[k]).fold(0.0, f64::max);
         let point = |at: &Computed| {
@@ -109,8 +129,11 @@ impl LawExport {
             PairLaw { name: name.to_string(), head: Vec::new(), pair, repulsion, adhesion, curve };
         let errors_all = [0, 1, 2].map(largest);
         let impacts = source.computed.iter().map(|at| at.quantities).collect();
+        let made = source.computed.iter().zip(made);
+        let made =
+            made.map(|(at, [e, ..])| restitution_with_adhesion(scene, at.speed, e)).collect();
         let model = source.model_words();
-        let export = Self { law, model, errors: errors_all, contact_ratio, impacts };
+        let export = Self { law, model, errors: errors_all, contact_ratio, impacts, made };
         let head = export.head(scene, &source.computed, &errors);
         Ok(Self { law: PairLaw { head, ..export.law }, ..export })
     }
@@ -404,18 +427,4 @@ fn adhesion_of(scene: &Scene, pair: &Pair) -> Option<[f64; 2]> {
         let force = adhesion.pull_off_force();
         [force, adhesion.separation_energy() / force]
     })
-}
-
-/// Returns the errors of a law beside a computed impact: of e, and of T and F relative.
-fn error_of(repulsion: &Repulsion, pair: &Pair, at: &Computed) -> [f64; 3] {
-    let Computed { speed, quantities, .. } = at;
-    let time = at.time_scale(pair);
-    let (mass, step) = (pair.effective_mass(), time / N_STEPS);
-    let [e, contact_time, force] = repulsion.impact(mass, *speed, step);
-    let of_time = match quantities.contact_time.is_finite() && contact_time.is_finite() {
-        true => (contact_time / time - 1.0).abs(),
-        false => 0.0,
-    };
-    let of_force = (force / quantities.peak_force - 1.0).abs();
-    [(e - quantities.restitution).abs(), of_time, of_force]
 }

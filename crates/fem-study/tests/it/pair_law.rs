@@ -221,3 +221,14 @@ fn effects_without_a_form_are_errors() {
     let fault = LawExport::of(&rubs.unwrap(), "x", None, false).unwrap_err();
     assert!(fault.to_string().contains("friction or plastic flow"), "{fault}");
 }
+
+/// The programs beside a header have its names, and bodies that stick have none for LIGGGHTS, whose contacts end at zero overlap.
+#[test]
+fn programs_beside_a_header_are_filled() {
+    for (name, export) in laws() {
+        let hosts = export.law.hosts();
+        assert!(hosts.iter().all(|(file, text)| !format!("{file}{text}").contains("@name@")));
+        let is_written = hosts.iter().any(|(file, _)| file.starts_with("normal_model_"));
+        assert_eq!(is_written, export.law.adhesion.is_none(), "{name}");
+    }
+}

@@ -1,12 +1,13 @@
 //! `fem-run export CASE`: input snippets for DEM codes from measured, fitted or computed restitutions.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use fem::fit::dem::{BAND_FILE, Snippet, grain_snippets};
 use fem::laws::{DemExport, ImpactCurve, LawExport, PairExport, StoredFit};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
-use fem_report::law_figures::export_figure;
+use fem_report::law_figures::{compiled_law_figure, export_figure};
 use serde_json::Value;
 
 use super::export_text::{
@@ -80,8 +81,8 @@ struct Exported {
     table: Option<Vec<u8>>,
     /// The files for the codes, and the table of the band, by name.
     texts: Vec<(String, String)>,
-    /// The laws of one pair, which are drawn.
-    fitted: Option<DemExport>,
+    /// The figure of one pair, export.svg.
+    figure: Option<String>,
     /// The printed text.
     shown: String,
 }
@@ -96,7 +97,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(&case))?;
     exported.table.iter().for_each(|table| output.write("pairs.csv", table));
     exported.texts.iter().for_each(|(name, text)| output.write(name, text));
-    exported.fitted.iter().for_each(|fitted| output.write("export.svg", export_figure(fitted)));
+    exported.figure.iter().for_each(|figure| output.write("export.svg", figure));
     output.publish(&exported.numbers, |_| exported.shown)
 }
 
@@ -143,7 +144,8 @@ fn exported(
         shown += "\nLIGGGHTS and YADE get no file: their walls need a material or a radius.\n";
     }
     let numbers = fitted.numbers(&name, &snippets);
-    Ok(Exported { warnings, numbers, table: None, texts, fitted: Some(fitted), shown })
+    let figure = Some(export_figure(&fitted));
+    Ok(Exported { warnings, numbers, table: None, texts, figure, shown })
 }
 
 /// Writes the pair as a C header, which is named after the case.
@@ -152,17 +154,40 @@ fn law(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failu
     let identifier = stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     let export =
         LawExport::of(case, &identifier, arguments.speeds, arguments.restitutions.as_elastic)?;
+    let own = own_laws(case, &export);
+    let (fitted, best) =
+        own.as_ref().map_or((&[][..], &[][..]), |(fitted, best)| (&fitted.laws[..], &best[..]));
     Ok(Exported {
         warnings: Vec::new(),
-        numbers: law_json(&export, name),
+        numbers: law_json(&export, best, name),
         table: None,
         texts: [(export.law.file_name(), export.law.header())]
             .into_iter()
             .chain(export.law.hosts())
             .collect(),
-        fitted: None,
-        shown: law_text(&export),
+        figure: Some(compiled_law_figure(&export, fitted)),
+        shown: law_text(&export, best),
     })
+}
+
+/// Fits the codes' own laws to the pair at the speeds of its law, and returns them with the best file of each code; `None` if no law of
+/// theirs has a loss like this.
+fn own_laws(case: &Case, export: &LawExport) -> Option<(DemExport, Vec<Snippet>)> {
+    let [slow, fast] = export.speeds();
+    let curve = ImpactCurve::computed(case, Some((slow, fast)), true).ok()?;
+    let tolerance = curve.default_tolerance();
+    let fitted = DemExport::of(case, curve, tolerance).ok()?;
+    let mut best = ranked(&fitted).ok()?;
+    let mut codes = BTreeSet::new();
+    best.retain(|snippet| codes.insert(snippet.code));
+    Some((fitted, best))
+}
+
+/// Returns the files of an export, that with the least error first.
+fn ranked(fitted: &DemExport) -> Result<Vec<Snippet>, Failure> {
+    let mut snippets = fitted.export.snippets()?;
+    snippets.sort_by(|one, other| one.validity[2].total_cmp(&other.validity[2]));
+    Ok(snippets)
 }
 
 fn pairs(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Failure> {
@@ -179,7 +204,7 @@ fn pairs(arguments: &Arguments, case: &Case, name: &str) -> Result<Exported, Fai
             .into_iter()
             .map(|(name, text)| (name.to_string(), text))
             .collect(),
-        fitted: None,
+        figure: None,
         shown: pairs_text(&export, &rows),
     })
 }
@@ -248,8 +273,7 @@ fn fitted(
     };
     let tolerance = tolerance.unwrap_or_else(|| curve.default_tolerance());
     let fitted = DemExport::of(case, curve, tolerance)?;
-    let mut snippets = fitted.export.snippets()?;
-    snippets.sort_by(|one, other| one.validity[2].total_cmp(&other.validity[2]));
+    let snippets = ranked(&fitted)?;
     Ok((fitted, snippets))
 }
 

@@ -71,8 +71,8 @@ fn friction_text(friction: &Friction) -> String {
     )
 }
 
-/// Returns the file of a contact law to compile with the speeds and errors that it was checked with.
-pub fn law_text(export: &LawExport) -> String {
+/// Returns the file of a contact law to compile with the speeds and errors that it was checked with, and the best law of each code's own.
+pub fn law_text(export: &LawExport, best: &[Snippet]) -> String {
     let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
     let [slow, fast] = export.speeds();
     let checked = format!(
@@ -87,8 +87,19 @@ pub fn law_text(export: &LawExport) -> String {
     );
     let of_point =
         |[speed, e, time]: &[f64; 3]| [show(*speed, "m/s"), format!("{e:.4}"), show(*time, "s")];
+    let own = best.iter().map(|own| format!("{} {:.3}", own.code, own.validity[2]));
+    let own = match best {
+        [] => String::new(),
+        _ => format!(
+            "\n{}\n",
+            hanging(&format!(
+                "Largest error of e of the codes' own laws, the best one of each: {}.",
+                own.collect::<Vec<_>>().join(", ")
+            ))
+        ),
+    };
     format!(
-        "{}: a contact law in C99, {} bytes per contact\n\n{}\n\n{}",
+        "{}: a contact law in C99, {} bytes per contact\n\n{}\n\n{}{own}",
         law.file_name(),
         law.memory(),
         hanging(&checked),
@@ -97,11 +108,15 @@ pub fn law_text(export: &LawExport) -> String {
 }
 
 /// Returns the same for the JSON file, SI.
-pub fn law_json(export: &LawExport, case: &str) -> Value {
+pub fn law_json(export: &LawExport, best: &[Snippet], case: &str) -> Value {
     let LawExport { law, model, errors: [e, time, force], contact_ratio, .. } = export;
     let column = |k: usize| law.curve.iter().map(|point| point[k]).collect::<Vec<f64>>();
+    let own = best.iter().map(
+        |own| json!({ "code": own.code, "model": own.model, "restitution_error": own.validity[2] }),
+    );
     json!({
         "case": case,
+        "own_laws": own.collect::<Vec<_>>(),
         "law": {
             "file": law.file_name(),
             "model": model,

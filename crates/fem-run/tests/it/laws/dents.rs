@@ -76,6 +76,20 @@ fn a_flowing_pair_is_exported_with_laws_that_dent() {
     assert!(!elastic.list("runs/case_export").contains(&"lammps_mdr.in".to_string()));
 }
 
+/// The exported law of bodies that dent is ten times as close as the best own law of any code, and the figure shows both.
+#[test]
+fn an_exported_law_stands_beside_the_codes_own_laws() {
+    let place = Place::with(&balls(FLOWING));
+    place.succeed("export case.toml --law");
+    let numbers = place.json("runs/case_export/export.json");
+    let (error, own) =
+        (number(&numbers["law"]["restitution_error"]), numbers["own_laws"].as_array().unwrap());
+    assert!(own.iter().any(|own| own["code"] == "LAMMPS"));
+    assert!(own.iter().all(|own| number(&own["restitution_error"]) > 10.0 * error), "{numbers}");
+    let svg = place.text("runs/case_export/export.svg");
+    assert!(svg.contains("the exported law") && svg.contains("mdr of LAMMPS"));
+}
+
 /// A yield strength comes back from its restitutions by every command, and no relaxation is taken for it.
 #[test]
 fn a_yield_strength_comes_back_from_restitutions() {
