@@ -27,6 +27,9 @@ pub(crate) const PREFIX: &str = "lib:";
 
 /// The text of the library.
 pub(crate) const TEXT: &str = include_str!("library.toml");
+/// The tree of [`TEXT`], which all cases of a sweep share.
+static TREE: LazyLock<DeTable<'static>> =
+    LazyLock::new(|| DeTable::parse(TEXT).map(Spanned::into_inner).unwrap_or_default());
 
 /// A material of the library.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -218,8 +221,7 @@ fn canonical(name: &str) -> Option<String> {
 
 /// Returns the table of a material as in a case file, `[material.NAME]`, with the text of the library.
 pub fn table_text(name: &str) -> Option<String> {
-    let mut library = DeTable::parse(TEXT).ok()?.into_inner();
-    let DeValue::Table(entry) = library.remove(name)?.into_inner() else { return None };
+    let DeValue::Table(entry) = TREE.get(name)?.get_ref() else { return None };
     let DeValue::Table(material) = entry.get("material")?.get_ref() else { return None };
     Some(section(&format!("material.{name}"), material))
 }
@@ -264,13 +266,12 @@ pub(crate) fn underlay(root: &mut DeTable<'_>, start: usize) -> bool {
     if names.is_empty() {
         return false;
     }
-    let Ok(mut library) = DeTable::parse(TEXT).map(Spanned::into_inner) else { return false };
     let mut is_used = false;
     for name in names {
-        let Some(entry) = name.strip_prefix(PREFIX).and_then(|name| library.remove(name)) else {
+        let Some(entry) = name.strip_prefix(PREFIX).and_then(|name| TREE.get(name)) else {
             continue;
         };
-        let DeValue::Table(mut entry) = shift(entry, start).into_inner() else { continue };
+        let DeValue::Table(mut entry) = shift(entry.clone(), start).into_inner() else { continue };
         let Some(material) = entry.remove("material") else { continue };
         let span = material.span();
         let all = root.entry(Spanned::new(span.clone(), DeString::Borrowed("material")));

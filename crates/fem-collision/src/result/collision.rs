@@ -151,14 +151,12 @@ pub struct TangentialResult {
 /// Parts of the error of the velocity of a rebounding contact patch, m/s, at the restitution that the model computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialErrors {
-    /// By the numbers of springs and steps.
+    /// By the numbers of springs and steps, and by a mesh.
     pub discretisation: Option<f64>,
-    /// Change per relative change of the tangential stiffness, which grows with the contact radius: what an error of the radius does.
-    pub per_stiffness: f64,
     /// By neglected effects.
     pub model: Option<f64>,
-    /// By the uncertainty of the coefficient of friction, if the case gives it.
-    pub input: Option<f64>,
+    /// Slopes of the velocity in that before, and in the relative change of the tangential stiffness over the normal one (m/s).
+    pub slopes: [f64; 2],
 }
 
 /// Force and pressures of a contact at equal steps of time.

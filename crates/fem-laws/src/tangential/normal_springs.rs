@@ -96,10 +96,17 @@ impl NormalSprings {
         forces: &[f64],
         profiles: &[Profile],
     ) -> Self {
+        // The coarse reading finds the edge from its own pressures, as the mesh does from its own.
         let every_second = |profile: &Profile| -> Profile {
-            let last = profile.len().saturating_sub(1);
-            let kept = profile.iter().enumerate().filter(|(k, _)| k % 2 == 0 || *k == last);
-            kept.map(|(_, pressure)| *pressure).collect()
+            let Some((edge, inner)) = profile.split_last() else { return Profile::new() };
+            let mut kept: Profile = inner.iter().step_by(2).copied().collect();
+            let found = match kept[..] {
+                [.., (r, p), (s, q)] => (s * s + q * q * (s * s - r * r) / (p * p - q * q)).sqrt(),
+                _ => edge.0,
+            };
+            let (least, most) = (kept.last().map_or(0.0, |it| it.0), 1.5 * edge.0);
+            kept.push(if found > least && found < most { (found, 0.0) } else { *edge });
+            kept
         };
         let fewer: Vec<_> = profiles.iter().step_by(2).map(every_second).collect();
         let half: Vec<_> = forces.iter().copied().step_by(2).collect();

@@ -62,7 +62,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let variants = Variants::of(&case)?;
     if case.scene().is_oblique() {
         standard_output::note(
-            "the study is that of the impact along the axis, which friction does not alter: run the case for its tangential results",
+            "the study is that of the impact along the axis, which friction does not alter, by models that have friction: run the case for its tangential results",
         );
     }
     let identity = Identity::of(&case)?;

@@ -13,6 +13,7 @@ use super::collect::SweepOutcome;
 use super::cost_estimate::{SweepCost, TotalTime};
 use super::member_store::LINE_BYTES;
 use crate::forecast::{estimated, estimated_time};
+use crate::text::run_report::tangential_text;
 use crate::text::{Failure, one_line, shown, standard_output, table};
 
 pub fn announce(
@@ -58,12 +59,16 @@ pub fn member_file_size(n_members: usize) -> String {
 pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder: &Path) -> String {
     let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
     let keys = keys.iter().map(|key| shortest_end(key, &keys));
-    let header: Vec<String> =
-        keys.chain(SHOWN.map(QuantityOfInterest::name)).map(one_line).collect();
+    let is_oblique = collected.shown.iter().any(|row| tangential(row, TANGENTIAL[1]).is_some());
+    let names = match is_oblique {
+        true => ["restitution", TANGENTIAL[0][0], TANGENTIAL[1][0]],
+        false => SHOWN.map(QuantityOfInterest::name),
+    };
+    let header: Vec<String> = keys.chain(names).map(one_line).collect();
     let row = |row: &Row| {
         let said = sweep.displayed(row.index);
         let mut cells: Vec<String> = said.iter().map(|value| one_line(value)).collect();
-        cells.extend(result_cells(row));
+        cells.extend(result_cells(row, is_oblique));
         cells
     };
     let mut alignment = vec![Left; sweep.keys().count()];
@@ -100,12 +105,29 @@ const SHOWN: [QuantityOfInterest; 3] = [
     QuantityOfInterest::PeakForce,
 ];
 
-fn result_cells(row: &Row) -> [String; SHOWN.len()] {
+/// The quantities of oblique impacts that take the places of contact time and force, which friction does not alter: name, key and unit.
+const TANGENTIAL: [[&str; 3]; 2] =
+    [["e_t", "tangential_restitution", ""], ["patch", "contact_patch_rebound_deg", "°"]];
+
+fn result_cells(row: &Row, is_oblique: bool) -> [String; SHOWN.len()] {
     const NONE: &str = "-";
     if !row.is_complete() {
         return ["failed", NONE, NONE].map(String::from);
     }
-    SHOWN.map(|quantity| answer(&row.summary, quantity).unwrap_or(NONE.into()))
+    let axial = SHOWN.map(|quantity| answer(&row.summary, quantity));
+    let [restitution, ..] = &axial;
+    let cells = match is_oblique {
+        true => {
+            [restitution.clone(), tangential(row, TANGENTIAL[0]), tangential(row, TANGENTIAL[1])]
+        }
+        false => axial,
+    };
+    cells.map(|cell| cell.unwrap_or(NONE.into()))
+}
+
+fn tangential(row: &Row, [_, key, unit]: [&str; 3]) -> Option<String> {
+    let parts = serde_json::from_value(row.summary["uncertainty"][key].clone()).unwrap_or_default();
+    Some(tangential_text(row.summary[key].as_f64()?, &parts, unit))
 }
 
 /// Returns the lines below the table that explain its signs.

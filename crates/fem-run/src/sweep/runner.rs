@@ -23,6 +23,7 @@ use crate::result_folder::ResultFolder;
 use crate::result_folder::run_files::{longest_name, write_result};
 use crate::result_folder::whole_file::cause;
 use crate::text::failure::Failure;
+use crate::text::run_report::across;
 
 pub struct SweepJob<'a> {
     pub sweep: &'a Sweep,
@@ -148,10 +149,11 @@ fn in_a_few_words(summary: &Summary) -> String {
         let measured = summary.measured_restitutions().first().map(|it| it.1);
         number.map_or("-".to_string(), |number| answer_text(number, &parts, quantity, measured))
     };
+    let time = || format!("contact time {}", answer(QuantityOfInterest::ContactTime));
     format!(
-        "restitution {}, contact time {}, {}",
+        "restitution {}, {}, {}",
         answer(QuantityOfInterest::Restitution),
-        answer(QuantityOfInterest::ContactTime),
+        across(summary).unwrap_or_else(time),
         elapsed(summary.cost.solve_s)
     )
 }

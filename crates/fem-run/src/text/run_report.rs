@@ -131,26 +131,27 @@ pub fn effects_in_short<'a>(
 }
 
 /// Returns the tangential quantities of an oblique impact with their error bars.
-fn across(summary: &Summary) -> Option<String> {
+pub fn across(summary: &Summary) -> Option<String> {
     let bars = summary.uncertainty.tangential?;
     let it = &summary.tangential;
-    let shown = |value: f64, parts: &Parts, unit: &str| {
-        let bar = parts.sum();
-        let text = match bar {
-            Some(bar) => show_measured(Measured { value, uncertainty: bar }, unit),
-            None => format!("{} ± ? {unit}", number(value, 4)),
-        };
-        text.trim_end().to_string()
-    };
     let quantities = [
         ("e_t", it.tangential_restitution, bars.tangential_restitution, ""),
         ("patch", it.contact_patch_rebound_deg, bars.contact_patch_rebound_deg, "°"),
         ("impulse ratio", it.impulse_ratio, bars.impulse_ratio, ""),
     ];
     let text = quantities.iter().filter_map(|(name, value, parts, unit)| {
-        Some(format!("{name} {}", shown((*value)?, parts, unit)))
+        Some(format!("{name} {}", tangential_text((*value)?, parts, unit)))
     });
     Some(text.collect::<Vec<_>>().join(", "))
+}
+
+/// Returns a tangential quantity with its error bar.
+pub fn tangential_text(value: f64, parts: &Parts, unit: &str) -> String {
+    let text = match parts.sum() {
+        Some(bar) => show_measured(Measured { value, uncertainty: bar }, unit),
+        None => format!("{} ± ? {unit}", number(value, 4)),
+    };
+    text.trim_end().to_string()
 }
 
 /// Returns dents of bodies that flowed, and where the energy went.

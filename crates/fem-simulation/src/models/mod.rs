@@ -31,6 +31,7 @@ use sticking::Bond;
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
+pub(crate) use oblique::patch_velocity;
 pub use oblique_response::{ObliqueRebound, ObliqueResponse};
 pub use reduced::{Reduced, ReducedMethod};
 
@@ -139,6 +140,7 @@ impl ComputedScene {
     pub fn expected(&self) -> Result<ExpectedRun, Rejection> {
         let gravity = self.given.scene.gravity();
         let contacts = gravity.map_or(1, |gravity| gravity.bounces as u64);
+        ObliqueBodies::of(&self.selected.regime.scene)?;
         let of_contact = self.method().expected(&self.selected.regime)?;
         let element_updates = of_contact.element_updates.saturating_mul(contacts);
         Ok(ExpectedRun { element_updates, ..of_contact })

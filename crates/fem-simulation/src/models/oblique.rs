@@ -22,8 +22,8 @@ const INERTIA: f64 = 0.4;
 /// that between a/R of 0.005 and 0.1.
 const SECOND_ORDER: f64 = 0.05;
 
-/// Relative change of the stiffness by which its effect is found.
-const STIFFER: f64 = 0.01;
+/// Relative change of an input by which its effect is found.
+const CHANGE: f64 = 0.01;
 
 /// Two bodies that move across the axis or spin.
 #[derive(Clone, Debug)]
@@ -126,12 +126,6 @@ impl ObliqueBodies {
         ([velocities[0] - lower * impulse, velocities[1] + upper * impulse], spins)
     }
 
-    /// Returns the velocity of each body's surface at the contact before the impact, m/s.
-    fn surfaces(&self) -> [f64; 2] {
-        let [lower, upper] = self.scene.bodies();
-        [lower.tangential_velocity() - turning(lower), upper.tangential_velocity() + turning(upper)]
-    }
-
     /// Returns the kinetic energy of moving bodies across the axis and by spin after an impulse (N s), J.
     fn kinetic(&self, impulse: f64) -> f64 {
         let (velocities, spins) = self.after(impulse);
@@ -146,7 +140,7 @@ impl ObliqueBodies {
 
     /// Returns the work of bodies that keep their velocity until this impulse (N s), J.
     fn wall_work(&self, impulse: f64) -> f64 {
-        let [lower, upper] = self.surfaces();
+        let [lower, upper] = surfaces(&self.scene);
         let fixed = |k: usize| self.inverse_masses[k] == 0.0;
         let of = |is_fixed: bool, velocity: f64| if is_fixed { impulse * velocity } else { 0.0 };
         of(fixed(0), lower) - of(fixed(1), upper)
@@ -168,7 +162,8 @@ impl ObliqueBodies {
         if work == 0.0 { energies } else { energies.with(Account::WallWork, work) }
     }
 
-    /// Returns the errors of the velocity of the rebounding patch, m/s.
+    /// Returns the errors of the velocity of the rebounding patch, m/s: the largest changes over the impact, since those at its end
+    /// pass through zero.
     pub fn errors(
         &self,
         speed: f64,
@@ -177,24 +172,22 @@ impl ObliqueBodies {
         before: f64,
     ) -> TangentialErrors {
         let coarse = springs.coarser();
-        let after = |contact: &TangentialContact| contact.impact(&coarse, before).velocity;
-        let own = after(&self.contact);
-        let change = |contact: &TangentialContact| (after(contact) - own).abs();
+        let own = self.contact.impact(&coarse, before);
+        let other_size = self.other_size.impact(&coarse, before);
         let share = if self.contact.has_finite_size() { SECOND_ORDER } else { 1.0 };
         let coupling = FrictionEffect::coupling(&self.scene);
         let psi = before.abs() * coupling.stiffness_ratio / (self.contact.friction() * speed);
         let is_known = !coupling.is_unknown(psi);
-        let friction = self.scene.friction();
-        let input = self.scene.uncertain_inputs().iter().find(|it| it.key == "contact.friction");
-        let of_friction = |to: f64| after(&self.contact.clone().with_friction(to));
+        let slope = |contact: &TangentialContact, before: f64| {
+            (contact.impact(&coarse, before).velocity - own.velocity) / CHANGE
+        };
         TangentialErrors {
-            discretisation: Some((own - impact.velocity).abs()),
-            per_stiffness: change(&self.contact.clone().stiffer_by(STIFFER)) / STIFFER,
-            model: is_known.then(|| share * change(&self.other_size)),
-            input: input.map(|it| {
-                let [low, high] = [friction - it.uncertainty, friction + it.uncertainty];
-                0.5 * (of_friction(high) - of_friction(low.max(0.0))).abs()
-            }),
+            discretisation: Some(largest_change(&own.history, &impact.history)),
+            model: is_known.then(|| share * largest_change(&other_size.history, &own.history)),
+            slopes: [
+                slope(&self.contact, (1.0 + CHANGE) * before) / before,
+                slope(&self.contact.clone().stiffer_by(CHANGE), before),
+            ],
         }
     }
 }
@@ -210,8 +203,7 @@ impl Alteration for ObliqueBodies {
         let Some(restitution) = collision.restitution.filter(|_| is_parted) else {
             return Collision { pressures: None, ..collision };
         };
-        let [lower, upper] = self.surfaces();
-        let before = lower - upper;
+        let before = patch_velocity(&self.scene);
         let is_free = self.scene.friction() == 0.0 || before == 0.0;
         let springs = springs.filter(|_| !is_free);
         if !is_free && springs.is_none() {
@@ -232,6 +224,7 @@ impl Alteration for ObliqueBodies {
             _ => TangentialErrors {
                 discretisation: Some(0.0),
                 model: Some(0.0),
+                slopes: [1.0, 0.0],
                 ..TangentialErrors::default()
             },
         };
@@ -280,6 +273,18 @@ fn turning(body: &Body) -> f64 {
     body.diameter().map_or(0.0, |diameter| 0.5 * diameter * body.spin())
 }
 
+/// Returns the velocity of each body's surface at the contact before the impact, m/s.
+fn surfaces(scene: &Scene) -> [f64; 2] {
+    let [lower, upper] = scene.bodies();
+    [lower.tangential_velocity() - turning(lower), upper.tangential_velocity() + turning(upper)]
+}
+
+/// Returns the velocity of the contact patch before the impact, m/s.
+pub(crate) fn patch_velocity(scene: &Scene) -> f64 {
+    let [lower, upper] = surfaces(scene);
+    lower - upper
+}
+
 /// Returns the sign of the ball's velocity in that of the lower body relative to the upper one.
 fn side(scene: &Scene) -> f64 {
     if scene.ball() == 0 { 1.0 } else { -1.0 }
@@ -302,6 +307,13 @@ fn instant_at(history: &[TangentialInstant], time: f64) -> TangentialInstant {
         friction_work: of(|it| it.friction_work),
         relaxation_loss: of(|it| it.relaxation_loss),
     }
+}
+
+/// Returns the largest change of the velocity of the patch, m/s, between two histories of an impact.
+fn largest_change(one: &[TangentialInstant], other: &[TangentialInstant]) -> f64 {
+    let change = |it: &TangentialInstant| (instant_at(other, it.time).velocity - it.velocity).abs();
+    let ends = one.last().zip(other.last()).map(|(one, other)| one.velocity - other.velocity);
+    one.iter().map(change).fold(ends.map_or(0.0, f64::abs), f64::max)
 }
 
 /// Checks that friction is computed in a scene.

@@ -20,6 +20,7 @@ use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 
 use super::relaxation_band::variants;
 use super::summary::Quantities;
+use super::tangential::PatchChange;
 use crate::effects::{PartnerWaves, SimplifiedScene};
 use crate::estimate::quasi_static::ting_of;
 use crate::estimate::{Estimate, Regime};
@@ -27,15 +28,25 @@ use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
 use crate::simulation::Simulation;
 
+/// Number of changes by an input: of the six quantities, and of what a rebound depends on.
+const N_CHANGES: usize = 10;
 /// Relative accuracy of the impacts, whose differences count.
 const TOLERANCE: f64 = 1e-6;
 
-/// Returns the uncertainty of the numbers of a collision; `None` if the case has no uncertain inputs.
+/// What the uncertain inputs of a case change.
+pub(super) struct InputUncertainty {
+    /// Uncertainties of the numbers of a collision.
+    pub axial: QuantityErrors,
+    /// Changes of the rebound of an oblique impact, one per input.
+    pub across: Vec<PatchChange>,
+}
+
+/// Returns what the uncertain inputs change; `None` if the case has none.
 pub(super) fn input_uncertainty(
     simulation: &Simulation,
     collision: &Collision,
     numbers: &Quantities,
-) -> Option<QuantityErrors> {
+) -> Option<InputUncertainty> {
     let file = simulation.case().file().clone();
     let case = Case::of(simulation.with_approach(file, &collision.approach)).ok()?;
     let inputs = case.scene().uncertain_inputs();
@@ -46,15 +57,18 @@ pub(super) fn input_uncertainty(
     }
     let estimate = &simulation.setup().estimate;
     let own = impact_of(case.scene(), estimate)?;
-    let from_own =
-        |case: &Case| Some(impact_of(case.scene(), estimate)?.change_from(&own).to_vec());
+    let from_own = |other: &Case| {
+        let axial = impact_of(other.scene(), estimate)?.change_from(&own);
+        Some([&axial[..], &PatchChange::between(case.scene(), other.scene()).0].concat())
+    };
     // Unknown changes are no numbers.
-    let change = |input| case.change_by(input, from_own).unwrap_or_else(|| vec![f64::NAN; 6]);
+    let unknown = || vec![f64::NAN; N_CHANGES];
+    let change = |input| case.change_by(input, from_own).unwrap_or_else(unknown);
     let mut changes: Vec<Vec<f64>> = inputs.iter().map(change).collect();
     let is_one = bodies[0].material() == bodies[1].material();
     for side in 0..if is_one { 1 } else { 2 } {
         for (other, share) in variants(&case, side, own.contact_time) {
-            let change = from_own(&other).unwrap_or_else(|| vec![f64::NAN; 6]);
+            let change = from_own(&other).unwrap_or_else(unknown);
             changes.push(change.into_iter().map(|change| share * change).collect());
         }
     }
@@ -65,7 +79,8 @@ pub(super) fn input_uncertainty(
     let errors = QuantityErrors::from_fn(|quantity| {
         Some(sum(quantity as usize) * quantity.scale(numbers.number(quantity)?))
     });
-    Some(errors.checked())
+    let across = changes.iter().filter_map(|change| change[6..].try_into().ok()).map(PatchChange);
+    Some(InputUncertainty { axial: errors.checked(), across: across.collect() })
 }
 
 /// Returns the closed-form impact of a variant of an estimated scene.

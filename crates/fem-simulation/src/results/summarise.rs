@@ -9,6 +9,7 @@ use fem_laws::ImpactQuantities;
 
 use super::dent::{DentSummary, dents};
 use super::energy::{Accounts, Energy};
+use super::input_uncertainty::input_uncertainty;
 use super::measured::MeasuredSummary;
 use super::summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, PerQuantity,
@@ -63,7 +64,9 @@ impl Summary {
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision, &errors.decisions);
-        let uncertainty = uncertainty(simulation, collision, errors, &quantities, &effects);
+        let inputs = input_uncertainty(simulation, collision, &quantities);
+        let uncertainty =
+            uncertainty(simulation, collision, errors, &quantities, &effects, inputs.as_ref());
         let status =
             |quantity| Status::of(quantities.number(quantity), uncertainty.of(quantity).model);
         Self {
@@ -74,6 +77,7 @@ impl Summary {
                     collision,
                     uncertainty.of(QuantityOfInterest::Restitution),
                     uncertainty.of(QuantityOfInterest::MaxContactRadius),
+                    inputs.as_ref().map_or(&[], |inputs| &inputs.across[..]),
                 ),
             },
             tangential: tangential::quantities(simulation.case().scene(), collision),
@@ -288,8 +292,9 @@ fn bar_of(
     let values = quantities(&contact, &mut Numbers { not_finite: Vec::new() });
     let effects = effects(simulation, &contact, &errors.decisions);
     let quantity = QuantityOfInterest::Restitution;
-    let parts = uncertainty(simulation, &contact, errors, &values, &effects).of(quantity);
-    Parts { discretisation, ..parts }
+    let inputs = input_uncertainty(simulation, &contact, &values);
+    let parts = uncertainty(simulation, &contact, errors, &values, &effects, inputs.as_ref());
+    Parts { discretisation, ..parts.of(quantity) }
 }
 
 /// Returns the dents of bodies that flowed.

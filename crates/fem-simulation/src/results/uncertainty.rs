@@ -7,7 +7,7 @@
 
 use fem_collision::Collision;
 
-use super::input_uncertainty::input_uncertainty;
+use super::input_uncertainty::InputUncertainty;
 use super::summary::{EffectSummary, Parts, PerQuantity, Quantities, Side};
 use crate::effects::{Effect, EffectStatus, effect_named};
 use crate::error::ErrorEstimate;
@@ -24,8 +24,8 @@ pub(super) fn uncertainty(
     errors: &ErrorEstimate,
     numbers: &Quantities,
     effects: &[EffectSummary],
+    inputs: Option<&InputUncertainty>,
 ) -> PerQuantity<Parts> {
-    let inputs = input_uncertainty(simulation, collision, numbers);
     let all = model_form_errors(simulation, collision, effects);
     let model = all.iter().fold(QuantityErrors::ZERO, |sum, (_, error)| sum.plus(*error));
     PerQuantity::by(|quantity| {
@@ -39,7 +39,8 @@ pub(super) fn uncertainty(
             && numbers.number(quantity).is_some()
             && unknown.all(|(effect, _)| effect.is_dissipative());
         let bound = has_side.then(|| Side::without_dissipation(quantity)).flatten();
-        let (discretisation, input) = (of(&errors.bars), inputs.as_ref().and_then(of));
+        let (discretisation, input) =
+            (of(&errors.bars), inputs.and_then(|inputs| of(&inputs.axial)));
         Parts { discretisation, model: of(&model), input, bound }
     })
 }

@@ -130,7 +130,11 @@ impl Variants {
 impl Base {
     fn of(case: &Case) -> Result<Self, CaseError> {
         let case = case.edited(|file| {
-            (file.mesh, file.contact, file.time, file.output) = (None, None, None, None);
+            (file.mesh, file.time, file.output) = (None, None, None);
+            // Adhesion and friction belong to the scene.
+            if let Some(contact) = &mut file.contact {
+                (contact.method, contact.penalty_factor) = (None, None);
+            }
             file.stop = first_contact(file);
         })?;
         let plan = Plan::of_case(&case)?;

@@ -16,6 +16,18 @@ fn case(text: &str) -> Case {
     case_of::<&str>(text, &[])
 }
 
+/// Each variant of an oblique impact has its friction and is accepted by a run, so that explicit elements are none.
+#[test]
+fn variants_of_an_oblique_impact_have_its_friction() {
+    let variants =
+        Variants::of(&case(include_str!("../../../../cases/oblique_glass.toml"))).unwrap();
+    assert!(variants.all.iter().any(|variant| variant.series == Series::Condensed));
+    for variant in &variants.all {
+        assert_eq!(variant.case.scene().friction(), 0.15);
+        assert!(!variant.is_explicit() && Simulation::new(variant.case.clone()).is_ok());
+    }
+}
+
 /// The variants of the ball and the results of those that are cheap or have the common element size.
 type Results = (Variants, Vec<Option<(Measurement, f64)>>);
 

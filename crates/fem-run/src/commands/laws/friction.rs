@@ -17,16 +17,16 @@ pub const FRICTION: &str = "friction";
 #[derive(clap::Args, Debug)]
 pub struct ReboundArguments {
     /// Angle of the velocity of the rebounding ball against the axis, '12 ± 0.5 deg': finds the coefficient of friction
-    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true, value_parser = angle)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = angle)]
     rebound_angle: Option<Measured>,
     /// Angle of the velocity of its contact patch against the axis, negative if it goes back
-    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true, value_parser = angle)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = angle)]
     contact_patch_rebound: Option<Measured>,
     /// Angular velocity of the rebounding ball, '600 rad/s' or '900 rpm'
-    #[arg(long, value_name = "SPIN", allow_negative_numbers = true, value_parser = spin)]
+    #[arg(long, value_name = "SPIN", allow_hyphen_values = true, value_parser = spin)]
     spin_after: Option<Measured>,
     /// Tangential velocity of the rebounding ball
-    #[arg(long, value_name = "VELOCITY", allow_negative_numbers = true, value_parser = velocity)]
+    #[arg(long, value_name = "VELOCITY", allow_hyphen_values = true, value_parser = velocity)]
     tangential_velocity_after: Option<Measured>,
     /// Angle of the velocity before against the axis [default: that of the case]
     #[arg(long, value_name = "ANGLE", value_parser = angle)]

@@ -59,7 +59,7 @@ fn rebounds_give_the_coefficient_of_friction() {
     let invert = "invert case.toml --impact-angle '50 deg'";
     let one = place.succeed((invert, "--rebound-angle '45 ± 0.5 deg'"));
     one.prints("standard error");
-    place.fails(2, (invert, "--rebound-angle=-40deg")).tells("no coefficient of friction");
+    place.fails(2, (invert, "--rebound-angle '-40 deg'")).tells("no coefficient of friction");
     place.fails(2, invert).tells("--rebound-angle '12 deg'");
     place.write("rolling.csv", "impact_angle_deg,rolling_friction\n20,0.1\n");
     place.fails(2, "fit case.toml --data rolling.csv").tells("before a ball has rolled");

@@ -26,6 +26,25 @@ fn place(sweep: &str) -> Place {
     place
 }
 
+/// Over the angle only tangential quantities change: the table and the lines of progress have them.
+#[test]
+fn oblique_sweeps_print_tangential_quantities() {
+    let place = place(
+        "case = 'ball.toml'\n[vary]\n'body.1.impact_angle' = ['10 deg', '20 deg', '60 deg']\n",
+    );
+    place.write("ball.toml", include_str!("../../../../../cases/oblique_glass.toml"));
+    let ran = place.succeed("sweep sweep.toml");
+    let lines: Vec<&str> = ran.stdout.lines().take(4).collect();
+    assert!(lines[0].contains("e_t") && !lines[0].contains("contact time"), "{}", ran.stdout);
+    assert!(lines[2].contains(" ± ") && lines[2].ends_with('°'), "{}", ran.stdout);
+    assert!(lines.iter().all(|line| line.chars().count() <= 80), "{}", ran.stdout);
+    assert!(
+        ran.stderr.contains("60 deg: restitution 0.97576 ± 0.00066, e_t 0.4"),
+        "{}",
+        ran.stderr
+    );
+}
+
 /// Rows have error bars, or say what is not known or only estimated; the figure marks such points; and a warning is of all its
 /// members.
 #[test]
