@@ -194,7 +194,9 @@ impl PairLaw {
         let mut set = |name, holds: bool| {
             flags.extend(Some(name).filter(|_| holds));
         };
+        let is_hertz = matches!(self.repulsion, Repulsion::Hertz(_));
         set("sticks", self.adhesion.is_some());
+        set("remembers", self.adhesion.is_some() || !is_hertz);
         match &self.repulsion {
             Repulsion::Hertz([_, first, second]) => {
                 set("hertz", true);
@@ -225,7 +227,7 @@ impl PairLaw {
                 let of_shear = shear.as_ref().map_or(0, |shear| 2 * (1 + shear.terms.len()));
                 let per_spring = 2 + springs.terms.len() + of_shear;
                 let plate = usize::from(springs.plate_mobility > 0.0);
-                8 * (2 + plate + per_spring * springs.gaps.len())
+                8 * (3 + plate + per_spring * springs.gaps.len())
             }
         }
     }
