@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_glass_0_5ms_state contact;                               one per contact, 1024 bytes in double
+ *   pair_glass_0_5ms_state contact;                               one per contact, 1032 bytes in double
  *   pair_glass_0_5ms_begin(&contact);                             first touch of two bodies
  *   force = pair_glass_0_5ms_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_glass_0_5ms_end(&contact);                               the bodies have parted
@@ -74,11 +74,14 @@ static const PAIR_REAL pair_glass_0_5ms_stiffness[pair_glass_0_5ms_springs] = {
 static const PAIR_REAL pair_glass_0_5ms_equilibrium = (PAIR_REAL)0.000000000e0;
 static const PAIR_REAL pair_glass_0_5ms_weight[pair_glass_0_5ms_terms] = {1.000000000e0};
 static const PAIR_REAL pair_glass_0_5ms_rate[pair_glass_0_5ms_terms] = {2.708000000e3};
+/* What a branch keeps at least, m: processors are slow with the smallest numbers, to which a contact at rest would relax. */
+static const PAIR_REAL pair_glass_0_5ms_least = (PAIR_REAL)1e-30;
 
+/* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    int touches; /* whether the surfaces have met */
-    int reached; /* number of springs that have been pressed */
+    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
+    PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_glass_0_5ms_springs];
     PAIR_REAL load[pair_glass_0_5ms_springs]; /* over the stiffness, m */
     PAIR_REAL branch[pair_glass_0_5ms_terms][pair_glass_0_5ms_springs];
@@ -116,7 +119,7 @@ static inline PAIR_REAL pair_glass_0_5ms_sum(pair_glass_0_5ms_state *s, const PA
                                         PAIR_REAL approach, PAIR_REAL *slope)
 {
     PAIR_REAL force = 0, rise = 0;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     for (i = 0; i < n; i++) {
         PAIR_REAL load = held[i] + stiffness * (approach - pair_glass_0_5ms_gap[i] - s->compression[i]);
         load = load > 0 ? load : 0;
@@ -135,9 +138,9 @@ static inline PAIR_REAL pair_glass_0_5ms_repulsion(pair_glass_0_5ms_state *s, PA
     PAIR_REAL stiffness = pair_glass_0_5ms_equilibrium, force;
     PAIR_REAL kept[pair_glass_0_5ms_terms];
     int k;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     while (n < pair_glass_0_5ms_springs && pair_glass_0_5ms_gap[n] < approach) n++;
-    s->reached = n;
+    s->reached = (PAIR_REAL)n;
     for (i = 0; i < n; i++) held[i] = pair_glass_0_5ms_equilibrium * s->compression[i];
     for (k = 0; k < pair_glass_0_5ms_terms; k++) {
         PAIR_REAL share;
@@ -155,7 +158,8 @@ static inline PAIR_REAL pair_glass_0_5ms_repulsion(pair_glass_0_5ms_state *s, PA
     }
     for (k = 0; k < pair_glass_0_5ms_terms; k++) {
         PAIR_REAL gain = (1 + kept[k]) / 2;
-        for (i = 0; i < n; i++) s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i];
+        for (i = 0; i < n; i++)
+            s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i] + pair_glass_0_5ms_least;
     }
     return force;
 }
@@ -167,7 +171,7 @@ static inline PAIR_REAL pair_glass_0_5ms_force(pair_glass_0_5ms_state *s, PAIR_R
     PAIR_REAL force, slope;
     force = s->force = pair_glass_0_5ms_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches && approach > -pair_glass_0_5ms_reach);
+    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_glass_0_5ms_reach);
     return force;
 }
 

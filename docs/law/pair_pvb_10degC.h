@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_pvb_10degC_state contact;                               one per contact, 2088 bytes in double
+ *   pair_pvb_10degC_state contact;                               one per contact, 2096 bytes in double
  *   pair_pvb_10degC_begin(&contact);                             first touch of two bodies
  *   force = pair_pvb_10degC_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_pvb_10degC_end(&contact);                               the bodies have parted
@@ -74,11 +74,14 @@ static const PAIR_REAL pair_pvb_10degC_stiffness[pair_pvb_10degC_springs] = {
 static const PAIR_REAL pair_pvb_10degC_equilibrium = (PAIR_REAL)4.757993359e-1;
 static const PAIR_REAL pair_pvb_10degC_weight[pair_pvb_10degC_terms] = {4.049605537e-2, 9.537980253e-3, 2.720698373e-1, 7.753645356e-3, 8.022126750e-2};
 static const PAIR_REAL pair_pvb_10degC_rate[pair_pvb_10degC_terms] = {4.903639824e2, 1.297809246e4, 3.867600703e4, 3.434813523e5, 1.023608611e6};
+/* What a branch keeps at least, m: processors are slow with the smallest numbers, to which a contact at rest would relax. */
+static const PAIR_REAL pair_pvb_10degC_least = (PAIR_REAL)1e-30;
 
+/* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    int touches; /* whether the surfaces have met */
-    int reached; /* number of springs that have been pressed */
+    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
+    PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_pvb_10degC_springs];
     PAIR_REAL load[pair_pvb_10degC_springs]; /* over the stiffness, m */
     PAIR_REAL branch[pair_pvb_10degC_terms][pair_pvb_10degC_springs];
@@ -116,7 +119,7 @@ static inline PAIR_REAL pair_pvb_10degC_sum(pair_pvb_10degC_state *s, const PAIR
                                         PAIR_REAL approach, PAIR_REAL *slope)
 {
     PAIR_REAL force = 0, rise = 0;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     for (i = 0; i < n; i++) {
         PAIR_REAL load = held[i] + stiffness * (approach - pair_pvb_10degC_gap[i] - s->compression[i]);
         load = load > 0 ? load : 0;
@@ -135,9 +138,9 @@ static inline PAIR_REAL pair_pvb_10degC_repulsion(pair_pvb_10degC_state *s, PAIR
     PAIR_REAL stiffness = pair_pvb_10degC_equilibrium, force;
     PAIR_REAL kept[pair_pvb_10degC_terms];
     int k;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     while (n < pair_pvb_10degC_springs && pair_pvb_10degC_gap[n] < approach) n++;
-    s->reached = n;
+    s->reached = (PAIR_REAL)n;
     for (i = 0; i < n; i++) held[i] = pair_pvb_10degC_equilibrium * s->compression[i];
     for (k = 0; k < pair_pvb_10degC_terms; k++) {
         PAIR_REAL share;
@@ -155,7 +158,8 @@ static inline PAIR_REAL pair_pvb_10degC_repulsion(pair_pvb_10degC_state *s, PAIR
     }
     for (k = 0; k < pair_pvb_10degC_terms; k++) {
         PAIR_REAL gain = (1 + kept[k]) / 2;
-        for (i = 0; i < n; i++) s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i];
+        for (i = 0; i < n; i++)
+            s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i] + pair_pvb_10degC_least;
     }
     return force;
 }
@@ -167,7 +171,7 @@ static inline PAIR_REAL pair_pvb_10degC_force(pair_pvb_10degC_state *s, PAIR_REA
     PAIR_REAL force, slope;
     force = s->force = pair_pvb_10degC_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches && approach > -pair_pvb_10degC_reach);
+    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_pvb_10degC_reach);
     return force;
 }
 

@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_pvb_40degC_state contact;                               one per contact, 2064 bytes in double
+ *   pair_pvb_40degC_state contact;                               one per contact, 2072 bytes in double
  *   pair_pvb_40degC_begin(&contact);                             first touch of two bodies
  *   force = pair_pvb_40degC_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_pvb_40degC_end(&contact);                               the bodies have parted
@@ -72,11 +72,14 @@ static const PAIR_REAL pair_pvb_40degC_stiffness[pair_pvb_40degC_springs] = {
 static const PAIR_REAL pair_pvb_40degC_equilibrium = (PAIR_REAL)4.616354045e-3;
 static const PAIR_REAL pair_pvb_40degC_weight[pair_pvb_40degC_terms] = {6.977286335e-3, 3.300064069e-3, 3.358823285e-2, 1.001789897e-1, 9.231557235e-4, 7.752446830e-2};
 static const PAIR_REAL pair_pvb_40degC_rate[pair_pvb_40degC_terms] = {2.036774883e2, 1.084228780e3, 2.501553993e3, 3.072392749e4, 7.088685058e4, 3.773493288e5};
+/* What a branch keeps at least, m: processors are slow with the smallest numbers, to which a contact at rest would relax. */
+static const PAIR_REAL pair_pvb_40degC_least = (PAIR_REAL)1e-30;
 
+/* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    int touches; /* whether the surfaces have met */
-    int reached; /* number of springs that have been pressed */
+    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
+    PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_pvb_40degC_springs];
     PAIR_REAL load[pair_pvb_40degC_springs]; /* over the stiffness, m */
     PAIR_REAL branch[pair_pvb_40degC_terms][pair_pvb_40degC_springs];
@@ -114,7 +117,7 @@ static inline PAIR_REAL pair_pvb_40degC_sum(pair_pvb_40degC_state *s, const PAIR
                                         PAIR_REAL approach, PAIR_REAL *slope)
 {
     PAIR_REAL force = 0, rise = 0;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     for (i = 0; i < n; i++) {
         PAIR_REAL load = held[i] + stiffness * (approach - pair_pvb_40degC_gap[i] - s->compression[i]);
         load = load > 0 ? load : 0;
@@ -133,9 +136,9 @@ static inline PAIR_REAL pair_pvb_40degC_repulsion(pair_pvb_40degC_state *s, PAIR
     PAIR_REAL stiffness = pair_pvb_40degC_equilibrium, force;
     PAIR_REAL kept[pair_pvb_40degC_terms];
     int k;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     while (n < pair_pvb_40degC_springs && pair_pvb_40degC_gap[n] < approach) n++;
-    s->reached = n;
+    s->reached = (PAIR_REAL)n;
     for (i = 0; i < n; i++) held[i] = pair_pvb_40degC_equilibrium * s->compression[i];
     for (k = 0; k < pair_pvb_40degC_terms; k++) {
         PAIR_REAL share;
@@ -153,7 +156,8 @@ static inline PAIR_REAL pair_pvb_40degC_repulsion(pair_pvb_40degC_state *s, PAIR
     }
     for (k = 0; k < pair_pvb_40degC_terms; k++) {
         PAIR_REAL gain = (1 + kept[k]) / 2;
-        for (i = 0; i < n; i++) s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i];
+        for (i = 0; i < n; i++)
+            s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i] + pair_pvb_40degC_least;
     }
     return force;
 }
@@ -165,7 +169,7 @@ static inline PAIR_REAL pair_pvb_40degC_force(pair_pvb_40degC_state *s, PAIR_REA
     PAIR_REAL force, slope;
     force = s->force = pair_pvb_40degC_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches && approach > -pair_pvb_40degC_reach);
+    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_pvb_40degC_reach);
     return force;
 }
 

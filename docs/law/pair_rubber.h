@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_rubber_state contact;                               one per contact, 1984 bytes in double
+ *   pair_rubber_state contact;                               one per contact, 1992 bytes in double
  *   pair_rubber_begin(&contact);                             first touch of two bodies
  *   force = pair_rubber_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_rubber_end(&contact);                               the bodies have parted
@@ -74,11 +74,14 @@ static const PAIR_REAL pair_rubber_stiffness[pair_rubber_springs] = {
 static const PAIR_REAL pair_rubber_equilibrium = (PAIR_REAL)1.193495527e-1;
 static const PAIR_REAL pair_rubber_weight[pair_rubber_terms] = {2.149667160e-2, 2.187600972e-2, 2.781682364e-2, 1.103714167e-1};
 static const PAIR_REAL pair_rubber_rate[pair_rubber_terms] = {4.013057955e2, 3.559408975e3, 3.157041935e4, 2.800159760e5};
+/* What a branch keeps at least, m: processors are slow with the smallest numbers, to which a contact at rest would relax. */
+static const PAIR_REAL pair_rubber_least = (PAIR_REAL)1e-30;
 
+/* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    int touches; /* whether the surfaces have met */
-    int reached; /* number of springs that have been pressed */
+    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
+    PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_rubber_springs];
     PAIR_REAL load[pair_rubber_springs]; /* over the stiffness, m */
     PAIR_REAL branch[pair_rubber_terms][pair_rubber_springs];
@@ -116,7 +119,7 @@ static inline PAIR_REAL pair_rubber_sum(pair_rubber_state *s, const PAIR_REAL *h
                                         PAIR_REAL approach, PAIR_REAL *slope)
 {
     PAIR_REAL force = 0, rise = 0;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     for (i = 0; i < n; i++) {
         PAIR_REAL load = held[i] + stiffness * (approach - pair_rubber_gap[i] - s->compression[i]);
         load = load > 0 ? load : 0;
@@ -135,9 +138,9 @@ static inline PAIR_REAL pair_rubber_repulsion(pair_rubber_state *s, PAIR_REAL ap
     PAIR_REAL stiffness = pair_rubber_equilibrium, force;
     PAIR_REAL kept[pair_rubber_terms];
     int k;
-    int i, n = s->reached;
+    int i, n = (int)s->reached;
     while (n < pair_rubber_springs && pair_rubber_gap[n] < approach) n++;
-    s->reached = n;
+    s->reached = (PAIR_REAL)n;
     for (i = 0; i < n; i++) held[i] = pair_rubber_equilibrium * s->compression[i];
     for (k = 0; k < pair_rubber_terms; k++) {
         PAIR_REAL share;
@@ -155,7 +158,8 @@ static inline PAIR_REAL pair_rubber_repulsion(pair_rubber_state *s, PAIR_REAL ap
     }
     for (k = 0; k < pair_rubber_terms; k++) {
         PAIR_REAL gain = (1 + kept[k]) / 2;
-        for (i = 0; i < n; i++) s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i];
+        for (i = 0; i < n; i++)
+            s->branch[k][i] = kept[k] * s->branch[k][i] + gain * held[i] + pair_rubber_least;
     }
     return force;
 }
@@ -167,7 +171,7 @@ static inline PAIR_REAL pair_rubber_force(pair_rubber_state *s, PAIR_REAL approa
     PAIR_REAL force, slope;
     force = s->force = pair_rubber_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches && approach > -pair_rubber_reach);
+    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_rubber_reach);
     return force;
 }
 

@@ -122,9 +122,10 @@ static const PAIR_REAL pair_steel_dent[pair_steel_knots][3] = {
     {9.115480715e0, 1.850289935e-1, 1.430999160e0},
     {9.215153728e0, 1.760288437e-1, 1.442831727e0}};
 
+/* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    int touches; /* whether the surfaces have met */
+    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
     PAIR_REAL deepest, peak; /* largest approach ever, m, and the force there, N */
     PAIR_REAL length, exponent; /* of the rebound from it */
     PAIR_REAL strength; /* flow stress over that of the table */
@@ -195,7 +196,7 @@ static inline PAIR_REAL pair_steel_force(pair_steel_state *s, PAIR_REAL approach
 {
     PAIR_REAL force = s->force = pair_steel_repulsion(s, approach, approach_speed);
     (void)step;
-    s->touches = approach > 0 || (s->touches && approach > -pair_steel_reach);
+    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_steel_reach);
     return force;
 }
 
