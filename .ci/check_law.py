@@ -23,6 +23,7 @@ ROOT = pathlib.Path(__file__).parent.parent
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 # A code's file, and a line that uses it, by the name of its declarations.
 HOSTS = {
+    "LAMMPS": ("gran_sub_mod_{}.cpp", ""),
     "LIGGGHTS": ("normal_model_{}.h", "LIGGGHTS::ContactModels::NormalModel<{upper}> *of() {{ return new "
                  "LIGGGHTS::ContactModels::NormalModel<{upper}>(0, 0, 0); }}"),
     "MERCURY": ("P{}_Species.h", "P{rest}_Species species; P{rest}_Interaction contact;"),
@@ -72,8 +73,10 @@ def check_hosts(header):
         if not host.exists():
             continue
         place = pathlib.Path(tempfile.mkdtemp())
-        for included in re.findall(r'#include [<"](\S*\.hp?p?)[>"]', host.read_text()):
-            if included != header.name:
+        own = host.with_suffix(".h")
+        text = host.read_text() + (own.read_text() if own.exists() else "")
+        for included in re.findall(r'#include [<"](\S*\.hp?p?)[>"]', text):
+            if not (folder / included).exists():
                 (place / included).parent.mkdir(parents=True, exist_ok=True)
                 (place / included).write_text(f'#include "{ROOT}/.ci/host_declarations.hpp"\n')
         # LIGGGHTS reads a model for its number first.

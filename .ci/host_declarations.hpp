@@ -1,4 +1,4 @@
-// What the programs beside a contact law use of LIGGGHTS, MercuryDPM, YADE and DEM-Engine, declared as these codes do in their public
+// What the programs beside a contact law use of LAMMPS, LIGGGHTS, MercuryDPM, YADE and DEM-Engine, declared as these codes do in their public
 // headers, so that check_law.py compiles the programs without the codes.
 #pragma once
 #include <cmath>
@@ -35,6 +35,45 @@ struct NormalModelBase {
 };
 template<int> class NormalModel;
 } }
+#elif defined(HOST_LAMMPS)
+#define FLERR __FILE__, __LINE__
+namespace MathExtra {
+double dot3(const double *, const double *);
+void norm3(double *), cross3(const double *, const double *, double *);
+}
+namespace LAMMPS_NS {
+class LAMMPS;
+struct Error { void all(const char *, int, const char *); };
+namespace Granular_NS {
+class GranularModel;
+struct GranSubMod {
+  GranSubMod(GranularModel *, LAMMPS *);
+  virtual void init();
+  std::string name;
+  int size_history, nondefault_history_transfer, history_index, beyond_contact;
+  double *transfer_history_factor;
+  GranularModel *gm;
+  Error *error;
+};
+struct GranSubModNormal : GranSubMod {
+  GranSubModNormal(GranularModel *, LAMMPS *);
+  virtual bool touch();
+  virtual double pulloff_distance(double, double), calculate_contact_radius(), calculate_forces() = 0;
+  virtual void set_fncrit();
+  double damp, Fncrit;
+};
+struct GranSubModTangential : GranSubMod {
+  GranSubModTangential(GranularModel *, LAMMPS *);
+  virtual void calculate_forces() = 0;
+  double k, damp, mu;
+};
+struct GranularModel {
+  GranSubModNormal *normal_model;
+  double dt, delta, vnnr, rsq, radsum, dR, Fntot, nx[3], vtr[3], fs[3], *history;
+  int touch, history_update;
+};
+}
+}
 #elif defined(HOST_MERCURY)
 typedef double Mdouble;
 struct Vec3D { Vec3D(double, double, double); static double dot(const Vec3D &, const Vec3D &); Vec3D operator-(const Vec3D &) const; };
