@@ -225,7 +225,6 @@ impl Alteration for ObliqueBodies {
                 discretisation: Some(0.0),
                 model: Some(0.0),
                 slopes: [1.0, 0.0],
-                ..TangentialErrors::default()
             },
         };
         let result = TangentialResult {
