@@ -221,11 +221,9 @@ impl Alteration for ObliqueBodies {
             (Some(springs), Some(impact)) => {
                 self.errors(collision.approach.speed(), springs, impact, before)
             }
-            _ => TangentialErrors {
-                discretisation: Some(0.0),
-                model: Some(0.0),
-                slopes: [1.0, 0.0],
-            },
+            _ => {
+                TangentialErrors { discretisation: Some(0.0), model: Some(0.0), slopes: [1.0, 0.0] }
+            }
         };
         let result = TangentialResult {
             patch_velocity: [before, last.velocity],

@@ -145,18 +145,17 @@ fn nearly_incompressible_rubber_is_treloars() {
     }
 }
 
-/// The table of the docs for a bar of ν = 0.45 has the values of these closed forms, to four digits.
+/// The stresses of the docs for a bar of ν = 0.45 at 0.7 of its length are those of these closed forms.
 #[test]
-fn the_table_of_the_docs_is_right() {
+fn the_stresses_of_the_docs_are_right() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/finite-strain.md");
     let page = std::fs::read_to_string(page).unwrap();
-    for x in [0.5, 0.7, 0.9, 1.1, 1.5] {
-        let mut row = format!("| {x} | {:.1} |", x - 1.0);
-        for law in HyperelasticLaw::ALL {
-            // At ν = 0.45 all lateral stretches lie in between; the stress grows with them.
-            let radial = zero(0.6, 1.7, |t| stress(law, 0.45, t, x)[0]);
-            row += &format!(" {:.4} |", stress(law, 0.45, radial, x)[1] / 2.0);
-        }
-        assert!(page.contains(&row), "{row}");
-    }
+    let stresses = HyperelasticLaw::ALL.map(|law| {
+        // At ν = 0.45 all lateral stretches lie in between; the stress grows with them.
+        let radial = zero(0.6, 1.7, |t| stress(law, 0.45, t, 0.7)[0]);
+        format!("−{:.2} E", -stress(law, 0.45, radial, 0.7)[1] / 2.0)
+    });
+    let [first, second, third, last] = stresses;
+    let said = format!("{first}, {second}, {third} and {last}");
+    assert!(page.contains(&said), "{said}");
 }
