@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_glass_0_5ms_state contact;                               one per contact, 1032 bytes in double
+ *   pair_glass_0_5ms_state contact;                               one per contact, 1024 bytes in double
  *   pair_glass_0_5ms_begin(&contact);                             first touch of two bodies
  *   force = pair_glass_0_5ms_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_glass_0_5ms_end(&contact);                               the bodies have parted
@@ -80,7 +80,6 @@ static const PAIR_REAL pair_glass_0_5ms_least = (PAIR_REAL)1e-30;
 /* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
     PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_glass_0_5ms_springs];
     PAIR_REAL load[pair_glass_0_5ms_springs]; /* over the stiffness, m */
@@ -92,7 +91,6 @@ static inline void pair_glass_0_5ms_end(pair_glass_0_5ms_state *s)
 {
     int i;
     s->force = 0;
-    s->touches = 0;
     s->reached = 0;
     for (i = 0; i < pair_glass_0_5ms_springs; i++) {
         int k;
@@ -169,9 +167,9 @@ static inline PAIR_REAL pair_glass_0_5ms_force(pair_glass_0_5ms_state *s, PAIR_R
                                           PAIR_REAL step)
 {
     PAIR_REAL force, slope;
+    if (approach != approach) return approach;
     force = s->force = pair_glass_0_5ms_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_glass_0_5ms_reach);
     return force;
 }
 

@@ -1,6 +1,6 @@
 /* pair_pvb_40degC.h - contact law of one pair of bodies, C99 (and C++), SI units.
  * Ball of polyvinyl butyral, 10 mm, on a hard floor at 40 °C and 0.3 m/s
- * floor of nothing that yields, ball 10.00 mm of lib:pvb
+ * floor, rigid, ball 10.00 mm of lib:pvb
  *
  * Stands for: Ting's model with finite size.
  * Checked from 30.00 mm/s to 533.9 mm/s, contact radius up to 0.097 of R*, 100 steps per contact: e within 0.0037,
@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_pvb_40degC_state contact;                               one per contact, 2072 bytes in double
+ *   pair_pvb_40degC_state contact;                               one per contact, 2064 bytes in double
  *   pair_pvb_40degC_begin(&contact);                             first touch of two bodies
  *   force = pair_pvb_40degC_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_pvb_40degC_end(&contact);                               the bodies have parted
@@ -78,7 +78,6 @@ static const PAIR_REAL pair_pvb_40degC_least = (PAIR_REAL)1e-30;
 /* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
     PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_pvb_40degC_springs];
     PAIR_REAL load[pair_pvb_40degC_springs]; /* over the stiffness, m */
@@ -90,7 +89,6 @@ static inline void pair_pvb_40degC_end(pair_pvb_40degC_state *s)
 {
     int i;
     s->force = 0;
-    s->touches = 0;
     s->reached = 0;
     for (i = 0; i < pair_pvb_40degC_springs; i++) {
         int k;
@@ -167,9 +165,9 @@ static inline PAIR_REAL pair_pvb_40degC_force(pair_pvb_40degC_state *s, PAIR_REA
                                           PAIR_REAL step)
 {
     PAIR_REAL force, slope;
+    if (approach != approach) return approach;
     force = s->force = pair_pvb_40degC_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_pvb_40degC_reach);
     return force;
 }
 

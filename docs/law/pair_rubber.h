@@ -1,6 +1,6 @@
 /* pair_rubber.h - contact law of one pair of bodies, C99 (and C++), SI units.
  * Ball of rubber, EPDM, 10 mm, on a hard floor at 0.3 m/s
- * floor of nothing that yields, ball 10.00 mm of lib:epdm
+ * floor, rigid, ball 10.00 mm of lib:epdm
  *
  * Stands for: Ting's model.
  * Checked from 30.00 mm/s to 3.000 m/s, contact radius up to 0.26 of R*, 100 steps per contact: e within 0.0038,
@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_rubber_state contact;                               one per contact, 1992 bytes in double
+ *   pair_rubber_state contact;                               one per contact, 1984 bytes in double
  *   pair_rubber_begin(&contact);                             first touch of two bodies
  *   force = pair_rubber_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_rubber_end(&contact);                               the bodies have parted
@@ -80,7 +80,6 @@ static const PAIR_REAL pair_rubber_least = (PAIR_REAL)1e-30;
 /* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
     PAIR_REAL reached; /* number of springs that have been pressed */
     PAIR_REAL compression[pair_rubber_springs];
     PAIR_REAL load[pair_rubber_springs]; /* over the stiffness, m */
@@ -92,7 +91,6 @@ static inline void pair_rubber_end(pair_rubber_state *s)
 {
     int i;
     s->force = 0;
-    s->touches = 0;
     s->reached = 0;
     for (i = 0; i < pair_rubber_springs; i++) {
         int k;
@@ -169,9 +167,9 @@ static inline PAIR_REAL pair_rubber_force(pair_rubber_state *s, PAIR_REAL approa
                                           PAIR_REAL step)
 {
     PAIR_REAL force, slope;
+    if (approach != approach) return approach;
     force = s->force = pair_rubber_repulsion(s, approach, step, &slope);
     (void)approach_speed;
-    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_rubber_reach);
     return force;
 }
 

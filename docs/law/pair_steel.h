@@ -19,7 +19,7 @@
  *
  * Made by fem-run 0.1.0: fem-run export CASE --law. Licence: MIT or Apache-2.0.
  *
- *   pair_steel_state contact;                               one per contact, 56 bytes in double
+ *   pair_steel_state contact;                               one per contact, 48 bytes in double
  *   pair_steel_begin(&contact);                             first touch of two bodies
  *   force = pair_steel_force(&contact, approach, approach_speed, step);     once in every step
  *   pair_steel_end(&contact);                               the bodies have parted
@@ -125,7 +125,6 @@ static const PAIR_REAL pair_steel_dent[pair_steel_knots][3] = {
 /* All members are PAIR_REAL, so that a code can keep a contact as numbers; zeros are a contact that has not begun. */
 typedef struct {
     PAIR_REAL force; /* of the springs in the last step, N */
-    PAIR_REAL touches; /* 1 if the surfaces have met, else 0 */
     PAIR_REAL deepest, peak; /* largest approach ever, m, and the force there, N */
     PAIR_REAL length, exponent; /* of the rebound from it */
     PAIR_REAL strength; /* flow stress over that of the table */
@@ -135,7 +134,6 @@ typedef struct {
 static inline void pair_steel_end(pair_steel_state *s)
 {
     s->force = 0;
-    s->touches = 0;
 }
 
 /* Begins the first contact of two bodies, or one at a new spot. */
@@ -176,7 +174,7 @@ static inline void pair_steel_press(pair_steel_state *s, PAIR_REAL approach)
 static inline PAIR_REAL pair_steel_repulsion(pair_steel_state *s, PAIR_REAL approach, PAIR_REAL approach_speed)
 {
     PAIR_REAL height;
-    if (!(approach > 0)) return 0;
+    if (approach <= 0) return 0;
     if (!(s->strength > 0)) {
         s->strength = 1;
         if (approach_speed > 0)
@@ -196,7 +194,6 @@ static inline PAIR_REAL pair_steel_force(pair_steel_state *s, PAIR_REAL approach
 {
     PAIR_REAL force = s->force = pair_steel_repulsion(s, approach, approach_speed);
     (void)step;
-    s->touches = approach > 0 || (s->touches > 0 && approach > -pair_steel_reach);
     return force;
 }
 

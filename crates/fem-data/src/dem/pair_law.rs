@@ -36,8 +36,8 @@ pub struct PairLaw {
 /// The force that parts the bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Repulsion {
-    /// Elastic bodies: F = K δ^(3/2)/(1 + c₁ √δ + c₂ δ), by K, c₁ and c₂.
-    Hertz([f64; 3]),
+    /// Elastic bodies: F = K δ^(3/2)/(1 + c₁ √δ + c₂ δ), by K, c₁, c₂ and the largest √δ (m^½) in the denominator.
+    Hertz([f64; 4]),
     /// Bodies that relax, a plate, or friction.
     Springs(ContactSprings, Option<ShearSprings>),
     /// Bodies that dent.
@@ -50,10 +50,11 @@ impl Repulsion {
     pub fn impact(&self, mass: f64, speed: f64, step: f64) -> [f64; 3] {
         match self {
             Self::Springs(springs, _) => springs.impact(mass, speed, step),
-            Self::Hertz([stiffness, first, second]) => {
+            Self::Hertz([stiffness, first, second, widest]) => {
                 verlet_impact(mass, speed, step, |[approach, _]| {
                     let (closed, root) = (approach.max(0.0), approach.max(0.0).sqrt());
-                    stiffness * closed * root / (1.0 + first * root + second * closed)
+                    let near = root.min(*widest);
+                    stiffness * closed * root / (1.0 + near * (first + second * near))
                 })
             }
             Self::Dents(table) => {
@@ -198,7 +199,7 @@ impl PairLaw {
         set("sticks", self.adhesion.is_some());
         set("remembers", self.adhesion.is_some() || !is_hertz);
         match &self.repulsion {
-            Repulsion::Hertz([_, first, second]) => {
+            Repulsion::Hertz([_, first, second, _]) => {
                 set("hertz", true);
                 set("sized", *first != 0.0 || *second != 0.0);
             }
@@ -220,14 +221,15 @@ impl PairLaw {
 
     /// Returns the bytes of a state in double precision.
     pub fn memory(&self) -> usize {
+        let sticks = if self.adhesion.is_some() { 16 } else { 0 };
         match &self.repulsion {
-            Repulsion::Hertz(_) => 16,
-            Repulsion::Dents(_) => 56,
+            Repulsion::Hertz(_) => 8 + sticks,
+            Repulsion::Dents(_) => 48 + sticks,
             Repulsion::Springs(springs, shear) => {
                 let of_shear = shear.as_ref().map_or(0, |shear| 2 * (1 + shear.terms.len()));
                 let per_spring = 2 + springs.terms.len() + of_shear;
                 let plate = usize::from(springs.plate_mobility > 0.0);
-                8 * (3 + plate + per_spring * springs.gaps.len())
+                sticks + 8 * (2 + plate + per_spring * springs.gaps.len())
             }
         }
     }
@@ -268,7 +270,7 @@ impl PairLaw {
         ]);
         match &self.repulsion {
             Repulsion::Hertz(numbers) => {
-                let keys = ["stiffness", "first", "second"].into_iter();
+                let keys = ["stiffness", "first", "second", "widest"].into_iter();
                 values.extend(keys.zip(numbers.map(digits)));
             }
             Repulsion::Springs(springs, shear) => {

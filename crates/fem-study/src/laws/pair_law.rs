@@ -27,8 +27,10 @@ use super::law_fault::LawFault;
 const N_SPEEDS: usize = 17;
 /// Factor between the speed of the case and the ends of the range.
 const RANGE: f64 = 10.0;
-/// Factor by which the upper end shrinks until the model has a result.
+/// Factor by which the upper end shrinks until the model has a result of a contact that is not as wide as the bodies.
 const SHRINK: f64 = 0.75;
+/// Its largest contact radius over R*: Hertz' theory of half-spaces errs by several per cent there.
+const WIDEST: f64 = 0.5;
 /// Relative tolerance of the complex modulus of the reduced series, and factor by which its frequencies reach beyond π/T of both ends.
 const SERIES_TOLERANCE: f64 = 2e-4;
 const SERIES_MARGIN: f64 = 3.0;
@@ -83,6 +85,14 @@ impl Computed {
         [e, contact_time / time, force]
     }
 
+    /// Returns the errors by a pull-off force (N) over a distance (m), which begins and ends half a step early or late: of e, and of T
+    /// relative, which has the time over that distance.
+    fn errors_of_parting(&self, [force, reach]: [f64; 2], pair: &Pair) -> [f64; 2] {
+        let (time, away) = (self.time_scale(pair), self.speed * self.quantities.restitution);
+        let step = time / N_STEPS;
+        [0.5 * step * force / (pair.effective_mass() * self.speed), reach / (away * time)]
+    }
+
     /// Returns the errors of a law that makes these: of e, and of T and F relative.
     fn errors_of(&self, [e, time_ratio, force]: [f64; 3]) -> [f64; 3] {
         let Self { quantities, .. } = self;
@@ -115,7 +125,11 @@ impl LawExport {
         let adhesion = adhesion_of(scene, &pair);
         let made = source.computed.iter().map(|at| at.made_by(&repulsion, &pair));
         let made: Vec<[f64; 3]> = made.collect();
-        let errors = source.computed.iter().zip(&made).map(|(at, made)| at.errors_of(*made));
+        let errors = source.computed.iter().zip(&made).map(|(at, made)| {
+            let [e, time, force] = at.errors_of(*made);
+            let [of_e, of_time] = adhesion.map_or([0.0; 2], |it| at.errors_of_parting(it, &pair));
+            [e + of_e, time + of_time, force]
+        });
         let errors: Vec<[f64; 3]> = errors.collect();
         let largest = |k: usize| errors.iter().map(|error| error[k]).fold(0.0, f64::max);
         let point = |at: &Computed| {
@@ -148,11 +162,9 @@ impl LawExport {
         let clean = |text: &str| text.replace("*/", "* /").replace(char::is_control, " ");
         let bodies = scene.bodies().each_ref().map(|body| {
             let size = body.diameter().map_or(String::new(), |d| format!(" {}", show(d, "m")));
-            format!(
-                "{}{size} of {}",
-                body.name(),
-                body.material_name().unwrap_or("nothing that yields")
-            )
+            let material =
+                body.material_name().map_or(", rigid".to_string(), |it| format!(" of {it}"));
+            format!("{}{size}{material}", body.name())
         });
         let [slow, fast] = [computed[0].speed, computed[computed.len() - 1].speed];
         let [of_e, of_time, of_force] = self.errors;
@@ -210,7 +222,9 @@ impl Source {
             Some(range) => range,
             None => {
                 let mut fast = RANGE * own;
-                while fast > own && at(fast).is_err() {
+                let radius = case.scene().pair().map_err(FitError::from)?.effective_radius();
+                let is_wide = |it: Computed| it.quantities.max_contact_radius > WIDEST * radius;
+                while fast > own && at(fast).map_or(true, is_wide) {
                     fast = (SHRINK * fast).max(own);
                 }
                 (own / RANGE, fast)
@@ -270,7 +284,9 @@ impl Source {
         };
         let is_plain = plate.is_none() && scene.friction() == 0.0 && radiating.is_empty();
         if relaxation.terms().is_empty() && is_plain {
-            return Ok(Repulsion::Hertz(profile.elastic(pair, &relaxation, radii[1])));
+            let [stiffness, first, second] = profile.elastic(pair, &relaxation, radii[1]);
+            let widest = self.computed[N_SPEEDS - 1].quantities.max_approach.sqrt();
+            return Ok(Repulsion::Hertz([stiffness, first, second, widest]));
         }
         let times = [0, N_SPEEDS - 1].map(|k| self.computed[k].time_scale(pair));
         let middle = PI / (times[0] * times[1]).sqrt();

@@ -112,6 +112,35 @@ impl Compiled {
     }
 }
 
+/// The law and the table lose the same energy by adhesion where bodies dent, or have not recovered, as they part. The bound is the law's own.
+#[test]
+fn sticking_bodies_part_where_they_last_pressed() {
+    let relaxing = "youngs_modulus = 3e9, poissons_ratio = 0.35, surface_energy = 0.05, relaxation = { acts_on = 'all', \
+                    terms = [{ weight = 0.2, relaxation_time = 1e-5 }] }";
+    let denting =
+        "youngs_modulus = 70e9, poissons_ratio = 0.3, yield_strength = 2e8, surface_energy = 0.5";
+    for (name, diameter, speed, material) in
+        [("dents", 1e-4, 0.5, denting), ("relaxes", 1e-3, 0.1, relaxing)]
+    {
+        let body = format!("[[body]]\nsphere.diameter = {diameter}\nmaterial = 'm'\n");
+        let text = format!(
+            "[material]\nm = {{ density = 2700, {material} }}\n{body}name = 'a'\n{body}name = 'b'\napproach_speed = {speed}"
+        );
+        let case = Case::parse("grains.toml", &text, std::path::Path::new("."), &[]).unwrap();
+        let export = LawExport::of(&case, name, None, false).unwrap();
+        let Some(compiled) = Compiled::of(&export, &[]) else { return };
+        let line = |(point, impact): (&[f64; 3], &fem_laws::ImpactQuantities)| {
+            format!("{:e} {:e}\n", point[0], impact.contact_time / 100.0)
+        };
+        let input: String = export.law.curve.iter().zip(&export.impacts).map(line).collect();
+        let found = compiled.run(&words("impacts", &[]), &input);
+        for (point, row) in export.law.curve.iter().zip(&found) {
+            assert!((row[0] - point[1]).abs() < export.errors[0], "{name} {point:?} {row:?}");
+        }
+        assert!(export.errors[0] < 0.02, "{:?}", export.errors);
+    }
+}
+
 fn words(mode: &str, numbers: &[f64]) -> Vec<String> {
     [mode.to_string()].into_iter().chain(numbers.iter().map(|it| format!("{it:e}"))).collect()
 }
