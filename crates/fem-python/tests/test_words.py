@@ -22,7 +22,7 @@ NOT_IN_PYTHON = re.compile(
     r"|fem-report/src/accuracy|fem-(page|python)/"
 )
 #: Values in messages that look like a word of a sentence.
-EXAMPLES = {"all", "kuwabara_kono", "lib", "mean_pressure", "shear", "ting"}
+EXAMPLES = {"all", "friction", "kuwabara_kono", "lib", "mean_pressure", "shear", "ting"}
 TOKENS = re.compile(r'//[^\n]*|\'(?:[^\'\\\n]|\\[^u]|\\u\{\w+\})\'|r#".*?"#|"((?:[^"\\]|\\.)*)"', re.S)
 
 

@@ -13,7 +13,7 @@ _LISTS = {"diameters", "free", "masses", "materials"}
 #: Options with values by key.
 _DICTS = {"bounds", "columns", "param"}
 #: Words of a sentence that may follow an option; any other word is its value.
-_PROSE = frozenset("above and applies are chooses gives in includes is must needs of or out that to with".split())
+_PROSE = frozenset("above and applies are chooses gives in includes is must needs nor of or out that to with".split())
 
 #: An option, in clap's messages in quotes with the kind of its value, else perhaps with a value.
 _OPTION = re.compile(
