@@ -86,9 +86,12 @@ impl Computed {
     }
 
     /// Returns the errors by a pull-off force (N) over a distance (m), which begins and ends half a step early or late: of e, and of T
-    /// relative, which has the time over that distance.
+    /// relative, which has the time over that distance; of bodies that stay together, which never part, 0.
     fn errors_of_parting(&self, [force, reach]: [f64; 2], pair: &Pair) -> [f64; 2] {
         let (time, away) = (self.time_scale(pair), self.speed * self.quantities.restitution);
+        if away == 0.0 {
+            return [0.0; 2];
+        }
         let step = time / N_STEPS;
         [0.5 * step * force / (pair.effective_mass() * self.speed), reach / (away * time)]
     }
